@@ -8,7 +8,8 @@
 Each body is one JSON file, in the user's cache directory or in the directory named by the
 environment variable DERIVE_CACHE.  Nothing is kept if that variable is empty.  A file that is
 incomplete or was not written here is ignored, and a directory that cannot be read or written is
-not an error.
+not an error.  Neither a directory nor a file is used if it belongs to another user or if others may
+write to it.
 
 A key is complete only if the geometry file reads nothing but itself.  A file is therefore not kept
 if it imports anything besides SymPy, mpmath, math, fractions and the three names of `derive` that
@@ -21,6 +22,7 @@ import ast
 import json
 import os
 import re
+import shlex
 import stat
 import sys
 from collections.abc import Iterator
@@ -154,12 +156,15 @@ class Cache:
     folder: Path | None
 
     def get(self, key: str | None) -> Body | None:
-        """The body kept under `key`, or None if there is none or its file was changed."""
+        """The body kept under `key`, or None if there is none or its file is not to be trusted."""
         if self.folder is None or key is None:
             return None
         path = self.folder / f"{key}.json"
         try:
-            body = _read(path.read_bytes(), key)
+            with path.open("rb") as file:
+                if _fault(os.fstat(file.fileno())):  # it is replaced when the body is kept again
+                    return None
+                body = _read(file.read(), key)
         except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
             return None
         with suppress(OSError):
@@ -186,15 +191,23 @@ class Cache:
 
 
 def users_cache() -> Cache:
-    """The cache that the environment selects; it keeps nothing if others may write to it."""
-    folder = _selected()
-    return Cache(folder if folder and _is_private(folder) else None)
+    """The cache that the environment selects; it keeps nothing in a directory that others share."""
+    return Cache(None if distrusted() else _selected())
 
 
-def distrusted() -> Path | None:
-    """The selected directory, if it is not used because others may write to it."""
+def distrusted() -> str:
+    """Why the selected directory is not used, and what to do; "" if it is used."""
     folder = _selected()
-    return folder if folder and not _is_private(folder) else None
+    try:
+        fault = _fault(folder.stat()) if folder else ""
+    except OSError:  # a missing directory will belong to the user
+        return ""
+    if not folder or not fault:
+        return ""
+    remedy = f"run `export {VARIABLE}=~/derive-cache` to use a directory of your own"
+    if fault == _OPEN:
+        remedy = f"run `chmod go-w {shlex.quote(str(folder))}`"
+    return f"{folder}: nothing is kept in this directory, because {fault}: {remedy}"
 
 
 def _selected() -> Path | None:
@@ -204,14 +217,16 @@ def _selected() -> Path | None:
     return Path(folder) if folder else None
 
 
-def _is_private(folder: Path) -> bool:
-    """Whether only the user may write to a directory; a missing one will be created that way."""
-    try:
-        status = folder.stat()
-    except OSError:
-        return True
-    mine = not hasattr(os, "getuid") or status.st_uid == os.getuid()
-    return mine and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+_FOREIGN, _OPEN = "it belongs to another user", "other users can write to it"
+
+
+def _fault(status: os.stat_result) -> str:
+    """Why a file or directory is not to be trusted; "" if only the user may write to it."""
+    if not hasattr(os, "getuid"):  # the rights of Windows are not in these numbers
+        return ""
+    if status.st_uid != os.getuid():
+        return _FOREIGN
+    return _OPEN if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH) else ""
 
 
 def _last_used(path: Path) -> float:

@@ -1,7 +1,8 @@
 """The command `derive`: read the arguments, call the package, print the results.
 
-Exit status: 0 if all went well, 1 if a check failed, 2 if the input was bad.  SymPy is imported
-only by the commands that need it, so that help appears at once.
+Exit status: 0 if all went well, 1 if a check failed, 2 if the input was bad, 130 after Ctrl-C, 141
+if the reader of the output has closed it.  SymPy is imported only by the commands that need it, so
+that help appears at once.
 """
 
 import errno
@@ -9,8 +10,8 @@ import os
 import shlex
 import signal
 import sys
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from math import inf
 from pathlib import Path
@@ -19,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from derive.errors import BadLimit, NotProven, UserError
+from derive.errors import BadLimit, BadPage, EmptyPath, NotProven, UserError
 from derive.limit import DEFAULT
 from derive.parallel import end
 from derive.terminal import (
@@ -40,8 +41,26 @@ if TYPE_CHECKING:
     from derive.paper.claim import Paper
     from derive.pipeline import Order
 
-FELL_SHORT, BAD_INPUT = 1, 2
-_PATH = click.Path(path_type=Path)
+FELL_SHORT, BAD_INPUT, INTERRUPTED, UNREAD = 1, 2, 130, 141
+"""Exit statuses; the last two are what a shell reports for SIGINT and SIGPIPE."""
+
+
+class _Path(click.ParamType):
+    """A path that is not empty, since an empty one would mean the current directory."""
+
+    name = "path"
+
+    def convert(
+        self, value: str, param: click.Parameter | None, context: click.Context | None
+    ) -> Path:
+        if not value:
+            is_option = isinstance(param, click.Option)
+            assert param is not None
+            raise EmptyPath(param.opts[0] if is_option else param.human_readable_name)
+        return Path(value)
+
+
+_PATH = _Path()
 
 
 def _time(context: click.Context, option: click.Parameter, seconds: float) -> float:
@@ -65,11 +84,17 @@ _limit = click.option(
 class _Commands(click.Group):
     """Show a user's mistake as a single message, and exit with the matching status."""
 
+    def make_context(self, *args: Any, **more: Any) -> click.Context:
+        """Read the arguments; `--help` and `--version` print here."""
+        with _stopped_from_outside():
+            return super().make_context(*args, **more)
+
     def invoke(self, ctx: click.Context) -> object:
         try:
-            done = super().invoke(ctx)
-            sys.stdout.flush()
-            return done
+            with _stopped_from_outside():
+                done = super().invoke(ctx)
+                sys.stdout.flush()
+                return done
         except UserError as error:
             complain("Error", error.message.replace("`derive ", f"`{command()} "))
             ctx.exit(BAD_INPUT)
@@ -78,15 +103,29 @@ class _Commands(click.Group):
             ctx.exit(FELL_SHORT)
 
     def main(self, *args: Any, **more: Any) -> Any:
-        """Run a command; `--help` and `--version` print before `invoke` is called."""
+        """Run a command, and report what the system refused."""
         try:
             _demand_surroundings()
             signal.signal(signal.SIGTERM, end)
             return super().main(*args, **more)
-        except OSError as error:  # a closed pipe never gets here
+        except OSError as error:
             complain("Error", _what_failed(error))
             _forget_the_output()
             sys.exit(BAD_INPUT)
+
+
+@contextmanager
+def _stopped_from_outside() -> Iterator[None]:
+    """End with the status that shells use if Ctrl-C is pressed, or the output is closed."""
+    try:
+        yield
+    except (KeyboardInterrupt, click.Abort):  # a question ends with Abort
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        remark("Interrupted")
+        sys.exit(INTERRUPTED)
+    except BrokenPipeError:
+        _forget_the_output()
+        sys.exit(UNREAD)
 
 
 def _what_failed(error: OSError) -> str:
@@ -215,9 +254,11 @@ def show(
 def _show_page(name: str, out: Path | None, limit: float) -> None:
     """Write the page of one body."""
     import derive.handbook  # noqa: F401 - reports a missing library at once
-    from derive.shelf import put_page
+    from derive.pipeline import stated_name
+    from derive.shelf import demand_page, put_page
     from derive.showing import apart, page_of
 
+    demand_page(out or Path(f"{stated_name(name)}.html"))
     (body,) = _built((name,), None, False, limit)
     path = out or Path(f"{body.name}.html")
     put_page(apart(page_of, name, body, limit), path)
@@ -227,12 +268,13 @@ def _show_page(name: str, out: Path | None, limit: float) -> None:
 def _show_pages(out: Path | None, limit: float) -> None:
     """Write the pages of the library with their index."""
     import derive.handbook  # noqa: F401 - reports a missing library at once
+    from derive.folder import demand_replaceable
     from derive.library import library
-    from derive.shelf import demand_replaceable, put_pages
+    from derive.shelf import put_pages
     from derive.showing import handbook
 
     folder = out or Path("handbook")
-    demand_replaceable(folder)
+    demand_replaceable(folder, BadPage)
     bodies = _built(library(), None, False, limit)
     put_pages(handbook(bodies, limit), folder)
     index = path_of((folder / "index.html").resolve())
@@ -389,9 +431,11 @@ def check(
     forms = {**report.FORMS}
     if page is not None or form == "html":
         from derive.paper.page import as_html
-        from derive.shelf import put_page
+        from derive.shelf import demand_page, put_page
 
         forms["html"] = as_html
+    if page is not None:
+        demand_page(page, "--html")
 
     paper = _paper(file, explain)
     with progress(len(paper.claims), ("checking",)) as step:
@@ -456,7 +500,7 @@ def edge(
     from derive.edge import report
     from derive.edge.find import find
     from derive.edge.table import read
-    from derive.shelf import MARK, put_page
+    from derive.shelf import MARK, demand_page, put_page
     from derive.writing.options import said
 
     if not 0 < friction < inf:
@@ -466,27 +510,29 @@ def edge(
         raise click.BadParameter(
             f"{wrong.pop()!r} is neither x nor p: write x=UNIT or p=UNIT", param_hint="--unit"
         )
+    targets = ((html, "--html", MARK), (table, "--csv", report.CSV_HEAD))
+    for path, option, mark in targets:
+        if path is not None:
+            demand_page(path, option, mark)
     with status(f"fitting the edges of {file.name}"):
         steps = read(file, given)
         found = find(steps, file.name, friction, dQ, dsigma)
     click.echo(report.as_text(found))
-    for path, option, text, mark in (
-        (html, "--html", report.as_page(found, steps, file.name) if html else "", MARK),
-        (table, "--csv", report.as_csv(found), report.CSV_HEAD),
-    ):
+    for path, option, mark in targets:
         if path is not None:
+            page = path is html
+            text = report.as_page(found, steps, file.name) if page else report.as_csv(found)
             put_page(text, path, option, mark)
             click.echo(f"Wrote {path_of(path.absolute())}")
 
 
 def _draft(file: Path | None, new: Path, inline: bool) -> None:
     """Read the displayed equations of a paper and write them as claims."""
-    from derive.paper.draft import draft, write
+    from derive.paper.draft import demand_new, draft, write
 
     if file is None:
         raise click.UsageError("--draft reads a paper: give FILE, in LaTeX")
-    if new.exists():
-        raise click.UsageError(f"{new} already exists: give the name of a new file with --draft")
+    demand_new(new)
     with status("reading the displayed equations"):
         made = draft(file, inline)
     write(made, new)
@@ -502,11 +548,12 @@ def _draft(file: Path | None, new: Path, inline: bool) -> None:
 
 def _accept(file: Path | None, label: str | None) -> None:
     """Show each reading that is not yet accepted, then write those that the user accepts."""
-    from derive.paper.accept import accept
+    from derive.paper.accept import accept, demand_writable
     from derive.paper.userfile import open_readings
 
     if file is None or label is not None:
         raise click.UsageError("--accept needs a claims file, without --explain: give FILE alone")
+    demand_writable(file)
     found = open_readings(file)
     readings = [reading for reading in found if reading.understood]
     accepted = []
@@ -560,10 +607,8 @@ def _built(sources: Sequence[str], jobs: int | None, fresh: bool, limit: float) 
     from derive.parallel import cores
     from derive.pipeline import STAGES, build_all
 
-    if folder := distrusted():
-        why = "nothing is kept in this directory, because other users can write to it"
-        remedy = "remove their permission to write, or set DERIVE_CACHE to another directory"
-        remark(f"{folder}: {why}: {remedy}")
+    if why := distrusted():
+        remark(why)
     with progress(len(sources), STAGES) as step:
         bodies = build_all(sources, step, jobs or cores(), fresh, limit)
     for body in bodies:

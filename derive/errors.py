@@ -394,6 +394,18 @@ class OpenUnits(UserError):
 
 
 @dataclass
+class EmptyPath(UserError):
+    """An option or an argument is an empty path."""
+
+    given_as: str
+
+    @property
+    def message(self) -> str:
+        """State which path is empty."""
+        return f"{self.given_as} is an empty path: give the path of a file or directory"
+
+
+@dataclass
 class BadTarget(UserError):
     """`derive new` must not, or cannot, write to the given path."""
 

@@ -4,6 +4,7 @@ In:  a path and a largest size in bytes, or the content to be written.
 Out: the content of the file, or the written file.
 """
 
+import errno
 import os
 import secrets
 from collections.abc import Iterator
@@ -33,6 +34,29 @@ def bytes_of(path: Path, most: int) -> bytes:
     if len(found) > most:
         raise Unreadable(f"is larger than {most} bytes")
     return found
+
+
+def demand_writable(path: Path) -> None:
+    """Raise OSError if the system does not let a file or directory be created at this path.
+
+    Nothing is created.  Folders on the way that do not exist are taken to be created as well.
+    """
+    here = path.absolute()
+    _exists(here)
+    folder = next(each for each in here.parents if _exists(each))
+    if not folder.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(folder))
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(folder))
+
+
+def _exists(path: Path) -> bool:
+    """Whether there is anything at a path; raises OSError if nothing can be there."""
+    try:
+        path.lstat()
+    except FileNotFoundError:
+        return False
+    return True
 
 
 def write_whole(content: bytes, path: Path, mode: int = 0o644) -> None:

@@ -62,7 +62,7 @@ def load_geometry(name_or_path: str | Path) -> "Geometry":
     if is_in_library(given):
         return _execute(FOLDER / f"{given}.py")
     path = Path(given)
-    if path.suffix == ".py" or _exists(path):
+    if given and (path.suffix == ".py" or _exists(path)):
         return _execute(path)
     raise UnknownGeometry(given, library())
 
@@ -107,19 +107,25 @@ def _execute(path: Path) -> "Geometry":
 
 @contextmanager
 def _interrupts_noticed() -> Iterator[Callable[[], bool]]:
-    """Tell whether Ctrl-C was pressed in the block; the file itself may raise KeyboardInterrupt."""
-    pressed: list[int] = []
-    before = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or not callable(before):
+    """Tell whether Ctrl-C or SIGTERM came in the block; the file itself may raise the same."""
+    came: list[int] = []
+    before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
+    if threading.current_thread() is not threading.main_thread():
         yield lambda: False
         return
 
-    def press(number: int, frame: FrameType | None) -> None:
-        pressed.append(number)
-        before(number, frame)
+    def passing_on(handler: Callable[[int, FrameType | None], object]) -> Callable[..., None]:
+        def handle(number: int, frame: FrameType | None) -> None:
+            came.append(number)
+            handler(number, frame)
 
-    signal.signal(signal.SIGINT, press)
+        return handle
+
+    handled = {number: handler for number, handler in before.items() if callable(handler)}
+    for number, handler in handled.items():
+        signal.signal(number, passing_on(handler))
     try:
-        yield lambda: bool(pressed)
+        yield lambda: bool(came)
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in handled.items():
+            signal.signal(number, handler)

@@ -13,20 +13,26 @@ from pathlib import Path
 MANIFEST = "files.sha256"
 """The name of the list."""
 
+_COMPILED = "__pycache__"
+"""The folder of compiled files; Python and numba write it again if it is missing."""
+
+_SUFFIXES = (".pyc", ".nbi", ".nbc")
+"""Suffixes of compiled files; any other file in that folder belongs to the user."""
+
 
 def with_manifest(files: Mapping[str, str]) -> dict[str, str]:
-    """The texts of all files of a directory, by name, and their list."""
+    """The texts of all files of a directory, by name; their list comes first."""
     lines = [f"{_checksum(text.encode())}  {name}" for name, text in sorted(files.items())]
-    return {**files, MANIFEST: "\n".join([*lines, ""])}
+    return {MANIFEST: "\n".join([*lines, ""]), **files}
 
 
-def not_written(folder: Path, entries: Iterable[Path], edited: bool = True) -> str:
+def not_written(folder: Path, edited: bool = True) -> str:
     """Of the first entry that was not written as it is, its name and why; "" if there is none.
 
     edited: whether that includes files that were changed later.
     """
     listed = _listed(folder / MANIFEST)
-    for path in entries:
+    for path in entries(folder, listed):
         name = path.relative_to(folder).as_posix()
         if path.is_file() and listed and name == MANIFEST:
             continue
@@ -36,6 +42,33 @@ def not_written(folder: Path, entries: Iterable[Path], edited: bool = True) -> s
         if not path.is_file() or (edited and _checksum(path.read_bytes()) != listed[name]):
             return f"{name!r}, which was changed after it was written"
     return ""
+
+
+def entries(folder: Path, names: Iterable[str]) -> list[Path]:
+    """All entries of a directory, in order, except compiled files.
+
+    A folder is entered if it is to hold one of the named files; any other is one entry.
+    """
+    inner = {parent.as_posix() for name in names for parent in Path(name).parents}
+    return _entries(folder, folder, inner)
+
+
+def _entries(folder: Path, root: Path, inner: set[str]) -> list[Path]:
+    found: list[Path] = []
+    for path in sorted(folder.iterdir()) if folder.is_dir() else []:
+        if path.is_symlink() or not path.is_dir():
+            found.append(path)
+        elif path.name == _COMPILED:
+            found += [p for p in sorted(path.iterdir()) if not _is_compiled(p)]
+        elif path.relative_to(root).as_posix() in inner:
+            found += _entries(path, root, inner)
+        else:
+            found.append(path)
+    return found
+
+
+def _is_compiled(path: Path) -> bool:
+    return path.is_file() and not path.is_symlink() and path.suffix in _SUFFIXES
 
 
 def _checksum(content: bytes) -> str:

@@ -32,14 +32,13 @@ from derive.cache import key_of, program_as_loaded, program_digest, users_cache
 from derive.codegen.publish import (
     FULL_STICK,
     Difference,
-    demand_replaceable,
     differences,
     modules_in,
     package_files,
     publish,
-    remove_leftovers,
 )
-from derive.errors import BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
+from derive.errors import BadOutput, BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
+from derive.folder import demand_replaceable, remove_leftovers
 from derive.library import FOLDER, is_in_library, library, load_geometry
 from derive.limit import DEFAULT
 from derive.parallel import Bounds, Report, in_processes
@@ -134,16 +133,18 @@ def _demand_names_of_their_own(sources: Iterable[str]) -> None:
     """Raise TwoOfOneName if two files literally state the same name."""
     known: set[str] = set()
     for source in dict.fromkeys(sources):
-        name = source if is_in_library(source) else _name_in(source)
+        name = stated_name(source)
         if name in known:
             raise TwoOfOneName(name)
         known |= {name} - {""}
 
 
-def _name_in(file: str) -> str:
-    """The name that a file gives its only Geometry, read without running it; "" if unclear."""
+def stated_name(source: str) -> str:
+    """The name of a body, which is read from its file without running it; "" if unclear."""
+    if is_in_library(source):
+        return source
     with suppress(OSError, ValueError, SyntaxError, RecursionError, MemoryError):
-        path = Path(file)
+        path = Path(source)
         tree = ast.parse(path.read_bytes() if path.is_file() else b"")
         calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
         named = [c.args[0] for c in calls if ast.unparse(c.func) == "Geometry" and c.args]
@@ -207,7 +208,7 @@ class Order:
     writes: False if the directory is only compared.
 
     Raises NeedsOutput for a file without a folder, InstalledPackage if there is no folder and
-    `generated` is an installed package, and BadOutput for a folder that must not be replaced.
+    `generated` is an installed package, and BadOutput for a folder that cannot be replaced.
     """
 
     sources: tuple[str, ...] = ()
@@ -217,7 +218,7 @@ class Order:
     def __post_init__(self) -> None:
         if self.folder is not None:
             if self.writes:
-                demand_replaceable(self.folder)
+                demand_replaceable(self.folder, BadOutput)
             return
         for source in self.sources:
             if not is_in_library(source):
@@ -227,6 +228,8 @@ class Order:
         installed = not (GENERATED.parent / "pyproject.toml").exists()
         if installed and self.writes:
             raise InstalledPackage(str(GENERATED))
+        if self.writes:
+            demand_replaceable(GENERATED, BadOutput, edited=False)
 
     @property
     def target(self) -> Path:

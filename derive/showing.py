@@ -9,10 +9,12 @@ on time and memory.
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from textwrap import fill
 from typing import Any, TypeVar
 
 import click
 from rich.console import RenderableType
+from sympy import Add, Expr, Monomial, Poly
 
 from derive import derive_sheet, load_geometry, pipeline, view
 from derive.body import Body
@@ -26,6 +28,9 @@ from derive.sheet import FormulaSheet
 from derive.terminal import status
 
 Shown = TypeVar("Shown")
+
+_WIDTH = 96
+"""Width of the lines of a series, in columns."""
 
 _LOWER = "give a lower order with --slip, or a simpler profile"
 
@@ -71,7 +76,7 @@ def sheet_of(asked: tuple[str, str, float], report: Report) -> tuple[RenderableT
     if form:
         from derive.codegen.languages import code_of
 
-        return code_of(sheet, form), remark
+        return code_of(sheet, form, name), remark
     return view.formulas(sheet), remark
 
 
@@ -104,7 +109,7 @@ def _sheet_of_body(name: str, body: Body, limit: float, report: Report) -> Formu
 
 
 def slip_of(asked: tuple[str, int], report: Report) -> str:
-    """The terms of both slip zones, one per line, then the meaning of their coefficients."""
+    """The terms of both slip zones, then the meaning of their coefficients; long lines continue."""
     name, order = asked
     sheet = _derived(name, report)
     report(name, "deriving the terms of the slip zones")
@@ -112,12 +117,30 @@ def slip_of(asked: tuple[str, int], report: Report) -> str:
         terms, known = slip_series(sheet, order)
     except ValueError as error:
         raise click.BadParameter(str(error), param_hint="--slip") from None
+    leading = [found[0] for found in terms.values()]
     zones = [
-        f"d_{edge.name.lower()}, order {number}: {text_of(term)}"
+        f"d_{edge.name.lower()}, order {number}: {text_of(_grouped(term, leading))}"
         for edge, found in terms.items()
         for number, term in enumerate(found, 1)
     ]
-    return "\n".join([*zones, *(f"{s} = {text_of(value)}" for s, value in known.items()), _SENSES])
+    lines = [*zones, *(f"{s} = {text_of(value)}" for s, value in known.items()), _SENSES]
+    return "\n".join(_folded(line) for line in lines)
+
+
+def _folded(line: str) -> str:
+    return fill(
+        line,
+        _WIDTH,
+        subsequent_indent="    ",
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def _grouped(term: Expr, leading: Sequence[Expr]) -> Expr:
+    """A term with one factor for each product of powers of the leading terms."""
+    groups = Poly(term, *leading).terms()
+    return Add(*(factor * Monomial(powers, leading).as_expr() for powers, factor in groups))
 
 
 def _derived(name: str, report: Report) -> FormulaSheet:

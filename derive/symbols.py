@@ -110,8 +110,6 @@ _ALSO_USED = (
         "end_pressure",
         "part_pressure",
         "root_ratio",
-        "part_moment",
-        "rising_pressure",
     ),
     *("r_left", "r_right", "k_left", "k_right"),
     *("second_term", "third_term", "curve_of", "excess", "polynomial", "kernel"),

@@ -61,7 +61,14 @@ NO_GEOMETRY = [
 PLACES = [
     (["show", "nowhere.py"], "no such file"),
     (["show", "."], "it is a directory"),
-    (["show", ""], "a directory"),
+    *((args, "there is no geometry ''") for args in (["show", ""], ["generate", "", "--out", "n"])),
+    (["check", ""], "FILE is an empty path"),
+    (["check", "", "--draft", "new"], "FILE is an empty path"),
+    (["check", "--html", ""], "--html is an empty path"),
+    (["edge", "", "--f", "0.5"], "FILE is an empty path"),
+    (["edge", "notes.txt", "--f", "0.5", "--csv", ""], "--csv is an empty path"),
+    (["generate", "hertz", "--out", ""], "--out is an empty path"),
+    (["new", "body", "x**2/R", "--out", ""], "--out is an empty path"),
     (["show", "mine.py"], "a directory"),
     (["show", "a" * 300], "a" * 300),
     (["show", "sphere"], "there is no geometry 'sphere'; the library contains"),
@@ -78,6 +85,17 @@ PLACES = [
     (["show", "--all", "--html", "--out", "a" * 300], "too long"),
 ]
 """Files and directories, and a part of the message."""
+
+TARGETS = [
+    "show sphere --html --out",
+    "show --all --html --out",
+    "generate sphere --out",
+    "check none.toml --html",
+    "check none.tex --draft",
+    "edge none.csv --f 0.5 --html",
+    "edge none.csv --f 0.5 --csv",
+]
+"""Commands that end in the path of their result; most of the inputs do not exist."""
 
 LOADS: list[tuple[Any, type[Exception], str]] = [
     (lambda: hertz.contact("1e5", E_star=1.0, R=1.0), TypeError, "P must be a real number"),
@@ -153,6 +171,19 @@ def test_a_file_that_holds_no_body(text: str, words: str, here: Path) -> None:
 def test_a_file_or_directory_that_will_not_do(arguments: list[str], words: str, here: Path) -> None:
     message = refused(arguments, here)
     assert words in message
+    assert message.count("\n") == 1
+
+
+@pytest.mark.parametrize("target", ["notes.txt/new", "a/b/new"])
+@pytest.mark.parametrize("command", TARGETS)
+def test_a_target_that_cannot_be_written_is_refused_before_the_input_is_read(
+    command: str, target: str, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One lies below a file, and the folder of the other is read-only."""
+    monkeypatch.setattr("os.access", lambda *_: False)
+    message = refused([*command.split(), target], here)
+    assert f"new{':' * ('--draft' in command)} " in message and "cannot be written (" in message
+    assert ("Not a directory" if "notes" in target else "Permission denied") in message
     assert message.count("\n") == 1
 
 

@@ -14,7 +14,7 @@ from platformdirs import user_cache_dir
 
 import derive.cache
 from derive.body import Body
-from derive.cache import PROGRAM, VARIABLE, Cache, key_of, program_digest, users_cache
+from derive.cache import PROGRAM, VARIABLE, Cache, distrusted, key_of, program_digest, users_cache
 from derive.library import FOLDER
 from derive.parallel import in_processes
 from derive.proof.verdict import Verdict
@@ -96,6 +96,28 @@ DAMAGES: dict[str, Callable[[Path], bytes]] = {
     "wrong digest": lambda file: json.dumps(facts(file) | {"digest": OTHER}).encode(),
     "less of a body": lambda file: json.dumps({**facts(file), "body": {"name": "a"}}).encode(),
 }
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="rights of Unix")
+@pytest.mark.parametrize("mode", [0o620, 0o602, 0o666])
+def test_a_file_that_others_may_write_to_is_replaced(cache: Cache, file: Path, mode: int) -> None:
+    file.chmod(mode)
+    assert cache.get(KEY) is None
+    cache.put(KEY, BODY)
+    assert cache.get(KEY) == BODY
+    assert file.stat().st_mode & 0o777 == 0o600
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="rights of Unix")
+def test_what_belongs_to_another_user_is_not_used(
+    cache: Cache, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The advice names a command that helps: the rights of the directory cannot be changed."""
+    monkeypatch.setenv(VARIABLE, str(cache.folder))
+    assert (users_cache().folder, distrusted()) == (cache.folder, "")
+    monkeypatch.setattr("os.getuid", lambda: cache.folder.stat().st_uid + 1)  # type: ignore[union-attr]
+    assert (users_cache().folder, cache.get(KEY)) == (None, None)
+    assert "belongs to another user: run `export DERIVE_CACHE=" in distrusted()
 
 
 @pytest.mark.parametrize("damage", DAMAGES)

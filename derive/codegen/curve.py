@@ -32,7 +32,6 @@ from sympy import (
 
 from derive.codegen.cuts import cuts_of
 from derive.codegen.law import PRESSURE, STATE, LawText, as_float
-from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
 from derive.piece import Piece
 from derive.symbols import x
@@ -44,10 +43,10 @@ _t = Symbol("t", positive=True)
 
 
 class CurveText(LawText):
-    """The text of the law of a body for which at least one function, such as L_N, is integrated."""
+    """The text of the law of a body whose functions are integrated."""
 
     def _functions(self) -> Iterator[str]:
-        """Code for the curve and for the functions that integrate it; the others call formulas."""
+        """Code for the curve and for the functions that integrate it."""
         slope = self.sheet.geometry.slope
         positions, pieces = cuts_of(slope)
         functions = {
@@ -56,9 +55,6 @@ class CurveText(LawText):
             "slope": ("x", "g'(x) and g''(x); infinite beyond the ends of the body."),
             "series": ("a, c", "L_N for E* = 1."),
         }
-        if carried_by(self.sheet) is Route.PARTS:
-            yield from self._carried()
-            del functions["pressure"], functions["state"]
         yield "@kernel(BESIDE_BREAK)"
         words = "g', g'' and t g''' at the distance t from a break."
         lines = [*self._demands(), *_branches(pieces), "    return np.nan, np.nan, np.nan"]

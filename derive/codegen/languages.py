@@ -9,6 +9,7 @@ derived.  Unlike the formulas of the generated module, it is not rewritten for f
 loses digits where its terms cancel, for example next to a kink.
 """
 
+import shlex
 import textwrap
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -96,8 +97,10 @@ class _Fortran(FCodePrinter):
         return f"{name}({', '.join(args)})"
 
 
-def code_of(sheet: FormulaSheet, language: str) -> str:
+def code_of(sheet: FormulaSheet, language: str, given: str = "") -> str:
     """The closed formulas of a sheet in one of LANGUAGES.
+
+    given: the file of the body, if it is not in the library.
 
     Raises NoSuchName if the language cannot use one of the names of the body.
     """
@@ -109,7 +112,12 @@ def code_of(sheet: FormulaSheet, language: str) -> str:
     lacking = [name for name in formulas if name in sheet and name not in closed]
     handles = "\n".join(f"    functions.{name} = @{name};" for name in closed)
     first = spoken.first.format(body=geometry.name, handles=handles)
-    head = "\n".join([*_comment(_heading(sheet, language, lacking), spoken), *first.splitlines()])
+    head = "\n".join(
+        [
+            *_comment(_heading(sheet, language, given or geometry.name, lacking), spoken),
+            *first.splitlines(),
+        ]
+    )
     functions = (_function(sheet, name, function, spoken) for name, function in closed.items())
     last = spoken.last.format(body=geometry.name)
     return "\n\n".join([head, *functions, *last.splitlines()])
@@ -119,10 +127,10 @@ def _is_elementary(expr: Expr) -> bool:
     return all(isinstance(call, _ELEMENTARY) for call in expr.atoms(Function, Integral))
 
 
-def _heading(sheet: FormulaSheet, language: str, lacking: list[str]) -> Iterator[str]:
+def _heading(sheet: FormulaSheet, language: str, given: str, lacking: list[str]) -> Iterator[str]:
     """The description of the file, the units of the parameters, and the formulas left out."""
     yield sheet.title
-    yield f"Closed formulas, printed by `derive show {sheet.geometry.name} --code {language}`."
+    yield f"Closed formulas, printed by `derive show {shlex.quote(given)} --code {language}`."
     yield (
         "The formulas are printed as derived: they lose digits where terms cancel, for example "
         "next to a kink.  They return NaN if their conditions are not met."
@@ -189,7 +197,7 @@ def _demand_names(body: str, language: str, names: Iterable[str]) -> None:
 
 def _comment(paragraphs: Iterable[str], language: Language) -> Iterator[str]:
     for paragraph in paragraphs:
-        for line in textwrap.wrap(paragraph, 96):
+        for line in textwrap.wrap(paragraph, 96, break_long_words=False, break_on_hyphens=False):
             yield f"{language.comment} {line}"
 
 

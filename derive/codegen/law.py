@@ -46,7 +46,7 @@ class LawText:
 
     def _functions(self) -> Iterator[str]:
         """Code for all functions; they call the public functions with scalars."""
-        yield from self._carried("L_N")
+        yield from self._carried()
         yield from self._series()
         yield from self._slope()
         kinks = self.sheet.frame.slope.kinks
@@ -71,13 +71,11 @@ class LawText:
             yield f"    {', '.join(used)} = {', '.join(used.values())}"
         yield from lines
 
-    def _carried(self, *more: str) -> Iterator[str]:
-        """Code for pressure and state, and for the functions `more` with positional arguments."""
+    def _carried(self) -> Iterator[str]:
+        """Code for pressure and state."""
         own = ", ".join(f"own[{i}]" for i in range(len(self.names)))
         yield "_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)"
-        edges = ("K_N", *more)
-        names = ", ".join(["_p", *(f"_{name}" for name in edges)])
-        yield f"{names} = {', '.join(f'by_position({name})' for name in ('pressure', *edges))}"
+        yield "_p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)"
         lines = [f"    return _p(x, a, c, 1.0, {own})"]
         yield from self.function("_pressure", *PRESSURE, lines)
         lines = [

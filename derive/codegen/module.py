@@ -153,8 +153,7 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
         route = route_of(sheet, function)
         if function.geometric and route is not Route.SOLVED:
             yield _TEXTS[route](sheet, function, source).text
-    routes = {route_of(sheet, function) for function in CONTRACT}
-    made = CurveText if Route.QUADRATURE in routes else LawText
+    made = CurveText if carried is Route.QUADRATURE else LawText
     yield made(sheet, source).text
 
 

@@ -6,10 +6,9 @@ Out: a Route for each function of the contract.
     FORMULA     The closed formula, rewritten for floating point.
     PARTS       The closed formula as a sum over the parts of the curve, with terms of one sign.
                 It is used where a contact can move off a kink, because the plain formula would
-                lose digits there.
+                lose digits there, if the curve consists of straight lines and parabolas.
     QUADRATURE  One quadrature over g'', with an integrand of one sign.  It is used where there is
-                no closed formula, or one whose powers cancel.  It is also used for L_N where g'' is
-                not constant on some part.
+                no closed formula, or one whose powers cancel.
     SOLVED      Newton's method on load and moment, or on load and tilt.
 """
 
@@ -19,7 +18,7 @@ from derive.codegen.contract import Function
 from derive.codegen.cuts import cancels
 from derive.sheet import FormulaSheet
 from derive.symbols import P
-from derive.theory.segments import Parts, has_parts
+from derive.theory.segments import has_parts
 
 
 class Route(Enum):
@@ -37,10 +36,7 @@ def route_of(sheet: FormulaSheet, function: Function) -> Route:
         return Route.FORMULA if function.available(sheet) else Route.SOLVED
     if not function.geometric:
         return Route.FORMULA
-    carried = carried_by(sheet)
-    if carried is Route.PARTS and function.name == "L_N" and not Parts(sheet.frame).has_series:
-        return Route.QUADRATURE
-    return carried
+    return carried_by(sheet)
 
 
 def carried_by(sheet: FormulaSheet) -> Route:

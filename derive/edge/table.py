@@ -27,6 +27,10 @@ in a number."""
 MOST_NODES = 20_000
 """The largest number of nodes of a load step."""
 
+SMALLEST, GREATEST = 1e-30, 1e30
+"""The range of the magnitudes of numbers other than zero, in SI units: products of several such
+numbers can still be computed."""
+
 LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "in": 0.0254}
 STRESSES = {
     **{"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9, "n/m2": 1.0, "n/mm2": 1e6},
@@ -100,7 +104,7 @@ def read(path: Path, units: Mapping[str, str] | None = None) -> tuple[Step, ...]
     scale = {
         what: _unit(what, names, columns, units_found, units or {}, shown) for what in ("x", "p")
     }
-    place = _numbers(data, columns["x"][0], names, lines.comma, shown) * scale["x"]
+    place = _numbers(data, columns["x"][0], names, lines.comma, shown, scale["x"])
     labels = _labels(data, columns)
     shear = columns.get("q", [])
     if len(columns["p"]) > 1 and (labels or len(shear) not in (0, 1, len(columns["p"]))):
@@ -113,11 +117,11 @@ def read(path: Path, units: Mapping[str, str] | None = None) -> tuple[Step, ...]
         )
     steps = []
     for number, column in enumerate(columns["p"]):
-        p = _numbers(data, column, names, lines.comma, shown) * scale["p"]
+        p = _numbers(data, column, names, lines.comma, shown, scale["p"])
         q = None
         if shear:
             own = shear[number] if len(shear) == len(columns["p"]) else shear[0]
-            q = _numbers(data, own, names, lines.comma, shown) * scale["p"]
+            q = _numbers(data, own, names, lines.comma, shown, scale["p"])
         for label in dict.fromkeys(labels) if labels else [""]:
             rows = [i for i, of in enumerate(labels) if of == label] if labels else slice(None)
             name = label or (names[column] if len(columns["p"]) > 1 else "")
@@ -402,8 +406,9 @@ def _numbers(
     names: Sequence[str],
     comma: bool,
     shown: str,
+    scale: float,
 ) -> np.ndarray:
-    """Return the numbers of one column.
+    """Return the numbers of one column in SI units; `scale` is the unit of the column.
 
     Raises BadTable.
     """
@@ -419,7 +424,14 @@ def _numbers(
                 f"line {number} has {what} instead of a finite number in column {names[column]!r}",
                 "write a number there, or remove the line",
             )
-        values.append(value)
+        if value and not SMALLEST <= abs(scale * value) <= GREATEST:
+            raise BadTable(
+                shown,
+                f"line {number} has {fields[column]!r} in column {names[column]!r}, and numbers "
+                f"other than 0 must lie between {SMALLEST:g} and {GREATEST:g} in SI units",
+                "correct the number or the unit, or write 0 outside the contact",
+            )
+        values.append(scale * value)
     return np.array(values)
 
 

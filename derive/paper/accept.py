@@ -8,13 +8,21 @@ import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
+from derive import files
 from derive.errors import BadClaimsFile
-from derive.files import write_whole
 from derive.paper.lines import with_lines
 from derive.paper.printed import Reading
 from derive.paper.userfile import source
 
 _REMEDY = "add the lines `understood = ...` by hand"
+
+
+def demand_writable(path: Path) -> None:
+    """Raise BadClaimsFile if the file cannot be replaced; call this before asking the user."""
+    try:
+        files.demand_writable(path.resolve())
+    except OSError as error:
+        raise _unwritable(path, error) from error
 
 
 def accept(path: Path, readings: Sequence[Reading]) -> None:
@@ -48,7 +56,10 @@ def _replace(path: Path, text: str) -> None:
     """Replace the text of the file, or leave the file unchanged if this fails."""
     target = path.resolve()
     try:
-        write_whole(text.encode(), target, mode=target.stat().st_mode & 0o777)
+        files.write_whole(text.encode(), target, mode=target.stat().st_mode & 0o777)
     except OSError as error:
-        why = f"the file cannot be written ({error.strerror})"
-        raise BadClaimsFile(str(path), why, _REMEDY) from error
+        raise _unwritable(path, error) from error
+
+
+def _unwritable(path: Path, error: OSError) -> BadClaimsFile:
+    return BadClaimsFile(str(path), f"the file cannot be written ({error.strerror})", _REMEDY)

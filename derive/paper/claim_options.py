@@ -62,10 +62,11 @@ def conditions(
         found |= set(context.conditions(written))
         bound |= {over.limits[-1][0] for over in integrals(written)}
         bound |= {each.args[1] for each in written.atoms(Limit)}
-    listed = claim.data.get("require", [])
+    one = isinstance(claim.data.get("require"), str)
+    listed = (claim.text("require"),) if one else claim.texts("require")
     names = names_of(claim.place.inside("require"), context, [s.name for s in meant.ours])
-    for text in [listed] if isinstance(listed, str) else listed:
-        found.add(condition(str(text), names).xreplace(meant.ours))
+    for text in listed:
+        found.add(condition(text, names).xreplace(meant.ours))
     inside = bound - held
     kept = [each for each in found if each != true and not each.free_symbols & inside]
     if false in found:

@@ -28,10 +28,10 @@ from derive.paper.context import (
 )
 from derive.paper.entries import Entries, TimeLimit
 from derive.paper.formula import Names, UnknownName, equation, unknown
-from derive.paper.meanings import Meanings, changed, names_of
+from derive.paper.meanings import Meanings, changed, demand_symbol, names_of
 from derive.paper.mistakes import reason
 from derive.paper.printed import Reading, may_be_rough, not_accepted, printed, waiting
-from derive.paper.variables import Variables, demand_name
+from derive.paper.variables import Variables
 
 OF_A_CLAIM = (
     frozenset(("label", "place", "says", "printed", "latex", "understood", "expected", "symbols"))
@@ -41,6 +41,11 @@ OF_A_CLAIM = (
     | {"consequence"}
 )
 """The keys of a claim."""
+_STRINGS = (
+    *("place", "says", "printed", "latex", "understood", "unchecked", "as", "through"),
+    *("family", "equation", "against", "consequence"),
+)
+"""Those that are strings, apart from the label."""
 _OF_A_CONVENTION = frozenset({"what", "symbols", "contradicts"})
 
 
@@ -102,6 +107,8 @@ class ClaimReader:
         """Return a claim; raise UserError if one of its entries is wrong."""
         given, place = entries.data, entries.place
         entries.demand_known(OF_A_CLAIM)
+        entries.demand_texts(*_STRINGS)
+        _demand_flags(entries)
         common["steps"] = entries.texts("steps")
         common["expected"] = claim_options.expected(entries)
         context = self.variables.file
@@ -109,7 +116,7 @@ class ClaimReader:
             context = self.variables.of_body(given["body"], place)
         own = entries.table("symbols")
         for name in own:
-            demand_name(name, place)
+            demand_symbol(name, own[name], place)
         symbols = {**self.meanings.symbols, **own}
         names = names_of(place, context, symbols)
         meant = self.meanings.of(context, own)
@@ -253,6 +260,8 @@ class ClaimReader:
 
     def _changed(self, entries: Entries, symbols: Mapping[str, Any], put: Put) -> Meaning:
         """Return the meanings that change if some symbols of a claim are redefined."""
+        for name, said in symbols.items():
+            demand_symbol(name, said, entries.place)
         own = {**entries.table("symbols"), **symbols}
         return changed(put, self.meanings.of(put.context, own))
 
@@ -279,6 +288,15 @@ class ClaimReader:
         if any(expr.free_symbols & table.keys() for expr in table.values()):
             raise place.bad("the claims are circular", "remove one of them")
         return Meant(table, {**ours, **{s: expr.xreplace(ours) for s, expr in table.items()}})
+
+
+def _demand_flags(entries: Entries) -> None:
+    """Refuse values of `accepted` and `leading` that mean nothing."""
+    given = entries.data
+    for key, allowed in (("accepted", (True, False)), ("leading", (True,))):
+        if not any(given.get(key, True) is each for each in allowed):
+            written = " or ".join(f"{key} = {str(each).lower()}" for each in allowed)
+            raise entries.place.bad(f"{key} = {given[key]!r} is not allowed", f"write {written}")
 
 
 def _lacking(names: list[str], meant: Meant) -> str:

@@ -3,6 +3,7 @@
 No claim in the draft is judged before a user has accepted its reading and defined its symbols.
 """
 
+import os
 import re
 from collections import Counter
 from dataclasses import dataclass, field, replace
@@ -12,7 +13,7 @@ from pathlib import Path
 from sympy import Expr, Integral, Mul, Symbol, degree, denom, solve, together
 
 from derive.errors import BadClaimsFile, BadFormula
-from derive.files import write_new
+from derive.files import demand_writable, write_new
 from derive.limit import LimitReached, within
 from derive.paper.displays import LABEL, Display, displays, rows_of
 from derive.paper.formula import (
@@ -350,13 +351,30 @@ def _conditions(
     return require, limit, ""
 
 
+def demand_new(path: Path) -> None:
+    """Raise BadClaimsFile if no new file can be written here; call this before a long task."""
+    try:
+        demand_writable(path)
+    except OSError as error:
+        raise _unwritable(path, error) from error
+    if os.path.lexists(path):
+        raise BadClaimsFile(str(path), "already exists", _NEW)
+
+
 def write(made: Draft, path: Path) -> None:
     """Write a draft to a new file; raises BadClaimsFile."""
+    demand_new(path)
     try:
         write_new(made.text().encode(), path)
     except OSError as error:
-        why = f"the file cannot be written ({error.strerror})"
-        raise BadClaimsFile(str(path), why, "name a new file with --draft") from error
+        raise _unwritable(path, error) from error
+
+
+_NEW = "give the name of a new file with --draft"
+
+
+def _unwritable(path: Path, error: OSError) -> BadClaimsFile:
+    return BadClaimsFile(str(path), f"the file cannot be written ({error.strerror})", _NEW)
 
 
 def _line(text: str) -> str:

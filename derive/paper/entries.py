@@ -55,8 +55,9 @@ class Entries:
 
     def text(self, key: str) -> str:
         """Return a string; the entry must be present."""
-        found = self.data.get(key)
-        if not isinstance(found, str) or not found.strip():
+        self.demand_texts(key)
+        found = str(self.data.get(key, ""))
+        if not found.strip():
             raise self.place.bad(f"there is no {key}", f'write {key} = "..."')
         return found
 
@@ -73,6 +74,13 @@ class Entries:
         if not isinstance(found, list) or not all(isinstance(each, dict) for each in found):
             raise self.place.bad(f"{key} is not a list of tables", f"write {key} = {example}")
         return found
+
+    def demand_texts(self, *keys: str) -> None:
+        """Reject entries that are not strings; they may be missing."""
+        for key in keys:
+            if not isinstance(self.data.get(key, ""), str):
+                why = f"{key} = {self.data[key]!r} is not a string"
+                raise self.place.bad(why, f'write {key} = "..."')
 
     def demand_known(self, known: frozenset[str]) -> None:
         """Reject unknown keys."""

@@ -64,14 +64,12 @@ class Meanings:
         if variables.body is not None:
             taken |= {"E_star": E_star, "f": f}
         place = Place(self._file.place.file, line_of(self._text, "symbols", name))
-        demand_name(name, place)
-        if type(said) not in (str, int, float, dict):
-            why = f"the value of the symbol {name!r} is not a string"
-            raise place.bad(why, f'write {name} = "a formula"')
+        demand_symbol(name, said, place)
         if isinstance(said, dict):
             entries = Entries(place.inside(f"the symbol {name!r}"), said)
             with errors.noted():
                 entries.demand_known(_OF_A_SYMBOL)
+                entries.demand_texts("meaning", "proposal")
             symbol = taken.get(name, Symbol(name))
             if symbol not in variables.units and symbol not in parameters.values():
                 variables.say_unit(symbol, said, entries.place)
@@ -172,6 +170,15 @@ class Meanings:
         if key not in self._followed:
             self._followed[key] = context.followed(meant)
         return self._followed[key]
+
+
+def demand_symbol(name: str, said: object, place: Place) -> None:
+    """Refuse the entry of a symbol if its name or its formula cannot be read."""
+    demand_name(name, place)
+    formula = said.get("is", "") if isinstance(said, dict) else said
+    if type(formula) not in (str, int, float):
+        why = f"the value of the symbol {name!r} is {formula!r}, which is not a string"
+        raise place.bad(why, f'write {name} = "a formula"')
 
 
 def changed(put: Put, other: Meant) -> Meaning:

@@ -86,7 +86,8 @@ _DEEPEST = 8
 _SECONDS = 30.0
 """The default time limit for reading a claim, for its verdict and its correction, in seconds."""
 _MOST_SECONDS = 86_400
-_KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims", "signs"})
+KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims", "signs"})
+"""The keys of a claims file."""
 
 
 def read_claims(path: Path) -> Paper:
@@ -158,7 +159,9 @@ def _read(path: Path) -> tuple[Paper, list[Reading]]:
     demand_none(errors.errors)
     limit, tables = TimeLimit(_SECONDS), dict[str, Any]()
     with errors.noted():
-        file.demand_known(_KEYS)
+        file.demand_known(KEYS)
+    with errors.noted():
+        file.demand_texts("title")
     with errors.noted():
         limit = _limit(file)
     variables = read_variables(file, text, errors)

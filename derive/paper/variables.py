@@ -119,6 +119,7 @@ def read_variables(file: Entries, text: str, errors: Collected) -> Variables:
         if isinstance(said, dict):
             with errors.noted():
                 Entries(place, said).demand_known(_OF_A_VARIABLE)
+                Entries(place, said).demand_texts("meaning")
         with errors.noted():
             found.declare(name, said, place)
     return found
@@ -133,7 +134,7 @@ def demand_name(name: str, place: Place) -> None:
 
 def is_bound(given: object) -> TypeGuard[float]:
     """Whether an entry may be an end of a range."""
-    return isinstance(given, int | float) and abs(given) < _FAR
+    return type(given) in (int, float) and abs(given) < _FAR  # type: ignore[arg-type]
 
 
 def _body(given: object, place: Place) -> Body | None:

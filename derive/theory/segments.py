@@ -12,14 +12,6 @@ For a part between kinks 1 and 2, with sin_j and cos_j of half the angles of its
 
     int w ds = (h**2/4) (segment(t/2) + sin(t) (sin_1 cos_2 + cos_1 sin_2)**2).
 
-If g'' is not constant, it must grow from one end of its piece.  It is then a sum of powers of the
-distance u from this end, all with positive coefficients.  Each power adds a moment of its part.
-With A and B the distances from the edges,
-
-    int u**k w ds = h**(k + 2) part_moment(k, 1, 1, ...),
-
-    part_moment(k, i, j, ...) = int u**k A**i B**j dtheta, with lengths divided by h.
-
 derive/runtime/segments.py evaluates these functions.
 """
 
@@ -31,24 +23,18 @@ from itertools import pairwise
 from sympy import (
     Abs,
     Add,
-    Dummy,
     Expr,
     Function,
     Gt,
-    Integral,
     Max,
     Min,
     Piecewise,
-    Poly,
     Rational,
     S,
     Symbol,
     UnevaluatedExpr,
-    asin,
     atan2,
-    binomial,
     cos,
-    degree,
     factor_terms,
     log,
     pi,
@@ -69,10 +55,6 @@ h = Symbol("h", positive=True)
 
 sin_x, cos_x = symbols("sin_x cos_x", nonnegative=True)
 """Sine and cosine of half the angle of x."""
-
-
-HIGHEST = 8
-"""Highest power in g'' whose moments runtime/segments.py computes to rounding accuracy."""
 
 
 class Named(Function):
@@ -280,79 +262,12 @@ class part_pressure(Named):
         return t / 2 * sine * cosine + end * second - start * first
 
 
-_k, _i, _j = symbols("k i j", integer=True, nonnegative=True)
-_f = Symbol("f", real=True)
-_past, _ahead = symbols("past ahead", real=True)
-
-
-def _over_part(integrand: Expr) -> Expr:
-    """2 int u**k integrand df over the half angles f of a part; u: distance from its start."""
-    start = asin(_ends[0])
-    u = sin(_f) ** 2 - _ends[0] ** 2
-    return 2 * Integral(u**_k * integrand, (_f, start, start + _t / 2))
-
-
-class part_moment(Named):
-    """int u**k A**i B**j dtheta over a part, lengths divided by the width; k, i, j are numbers."""
-
-    nargs = 8
-    letters = (_k, _i, _j, _t, *_ends)
-
-    @staticmethod
-    def definition(*_: Expr) -> Expr:
-        """The definition as an integral, because it is printed once for all powers."""
-        return _over_part(sin(_f) ** (2 * _i) * cos(_f) ** (2 * _j))
-
-    @property
-    def written_out(self) -> Expr:
-        """The value in elementary functions: integration by parts, for each power of the sine."""
-        k, i, j, t, sine_1, cosine_1, sine_2, cosine_2 = self.args
-        square, powers, total = Dummy(), t / 2, S.Zero
-        whole = Poly((square - sine_1**2) ** k * square**i * (1 - square) ** j, square)
-        for m in range(whole.degree() + 1):
-            if m:
-                ends = sine_2 ** (2 * m - 1) * cosine_2 - sine_1 ** (2 * m - 1) * cosine_1
-                powers = (powers * (2 * m - 1) - ends) / (2 * m)
-            total += 2 * whole.coeff_monomial(square**m) * powers
-        return total
-
-
-class rising_pressure(Named):
-    """int u**k L ds over a part, lengths divided by the width; u and v: sine and cosine of x.
-
-    past, ahead: the distances of x from the part's start and end, positive inside the part.
-    """
-
-    nargs = 10
-    letters = (_k, _t, *_ends, _sine, _cosine, _past, _ahead)
-
-    @staticmethod
-    def definition(*_: Expr) -> Expr:
-        """The definition as an integral, because it is printed once for all powers."""
-        place = asin(_sine)
-        level = log(Abs(sin(_f + place) / sin(_f - place))) / 2
-        return _over_part(level * sin(_f) * cos(_f))
-
-    @property
-    def written_out(self) -> Expr:
-        """The value by parts: dL/ds = w(x)/(2 (x - s) w(s)) leaves moments of the part."""
-        k, t, *ends, sine, cosine, past, ahead = self.args
-        first = _level(ends[0] * cosine, ends[1] * sine)
-        second = _level(ends[2] * cosine, ends[3] * sine)
-        moments = (
-            past ** (k - i) * part_moment(i, 0, 0, t, *ends).written_out for i in range(k + 1)
-        )
-        at_ends = past ** (k + 1) * (first - second) + (past + ahead) ** (k + 1) * second
-        return (at_ends + sine * cosine / 2 * Add(*moments)) / (k + 1)
-
-
 def _level(p: Expr, q: Expr) -> Expr:
     """L of two points, from products of a sine and a cosine."""
     return log(Abs((p + q) / (p - q))) / 2
 
 
 FUNCTIONS = (
-    *(part_moment, rising_pressure),
     *(edge_angle, segment, involute, part_area, part_arm, part_weight, root_ratio),
     *(kink_logarithm, second_term, third_term, end_pressure, part_pressure),
 )
@@ -377,10 +292,10 @@ def definitions_of(exprs: Iterable[Expr]) -> dict[Expr, Expr]:
 
 @lru_cache(maxsize=16)
 def has_parts(frame: Frame) -> bool:
-    """Whether a contact can leave a kink, and all parts have formulas with terms of one sign."""
+    """Whether a contact can leave a kink, and g'' is constant on every part."""
     if not frame.slope.is_polynomial or not any(k.clipped for k in frame.kinks):
         return False
-    return all(part.is_uniform or part.rise for part in Parts(frame).parts)
+    return not any(part.bend.has(x) for part in Parts(frame).parts)
 
 
 @dataclass(frozen=True)
@@ -413,26 +328,6 @@ class Part:
     def bend(self) -> Expr:
         """g'' on the part."""
         return simplify(self.piece.curvature)
-
-    @property
-    def is_uniform(self) -> bool:
-        """Whether g'' is constant on the part."""
-        return not self.bend.has(x)
-
-    @cached_property
-    def rise(self) -> "Rise | None":
-        """g' and g'' by distance from the end of the piece where growth begins; None if uniform."""
-        if self.is_uniform or degree(self.bend, x) > HIGHEST:
-            return None
-        for kink, sense in ((self.before, 1), (self.behind, -1)):
-            if kink is None:
-                continue
-            place, u = kink.kink.position, Dummy("u")
-            outwards = sense * self.piece.slope.subs(x, place + sense * u)
-            slopes = [simplify(term) for term in reversed(Poly(outwards, u).all_coeffs())]
-            if all(term.is_nonnegative for term in slopes):
-                return Rise(self, sense, tuple(slopes))
-        return None
 
     @property
     def is_inner(self) -> bool:
@@ -482,12 +377,7 @@ class Part:
 
     @property
     def area(self) -> Expr:
-        """int w ds over h**2/8.
-
-        If the part is not uniform, this and the following integrals include the factor g''.
-        """
-        if self.rise:
-            return 8 * self.rise.moment(1, 1)
+        """int w ds over h**2/8."""
         if not self.is_inner:
             return segment(self.t)
         return part_area(self.t, self.across)
@@ -495,8 +385,6 @@ class Part:
     @property
     def arm(self) -> Expr:
         """int w (s - mid) ds over h**3/24."""
-        if self.rise:
-            return 12 * (self.rise.moment(2, 1) - self.rise.moment(1, 2))
         if not self.is_inner:
             return (-1 if self.before is None else 1) * sin(self.t) ** 3
         return part_arm(self.t, *self.begins, *self.ends)
@@ -504,8 +392,6 @@ class Part:
     @property
     def lean(self) -> Expr:
         """int g'/w ds."""
-        if self.rise:
-            return self.rise.lean
         if self.bend == 0:
             return simplify(self.piece.slope) * self.t
         if self.before is None:
@@ -519,8 +405,6 @@ class Part:
     def weight(self, edge: Edge) -> Expr:
         """int w/A ds over h for the left edge, int w/B ds over h for the right one."""
         touched = self.before if edge is Edge.LEFT else self.behind
-        if self.rise:
-            return self.rise.moment(*((0, 1) if edge is Edge.LEFT else (1, 0)))
         if self.is_inner:
             return part_weight(self.t, self.far if edge is Edge.LEFT else self.near)
         return (self.t + sin(self.t)) / 2 if touched is None else segment(self.t / 2)
@@ -533,8 +417,6 @@ class Part:
     @property
     def seen(self) -> Expr:
         """int L ds over h, for the pressure at x."""
-        if self.rise:
-            return self.rise.seen
         if self.before is None:
             return end_pressure(self.t, sin_x, cos_x)
         if self.behind is None:
@@ -566,65 +448,6 @@ class Part:
                 return there + self.bend * _distance(place, end)
         root = simplify(-slope.subs(x, 0) / self.bend)
         return self.bend * _distance(place, root)
-
-
-@dataclass(frozen=True)
-class Rise:
-    """A part whose g' grows from one end of its piece, with terms of one sign.
-
-    sense: +1 if it grows from the left end, -1 if it grows from the right end.
-    slopes: coefficients of sense times g' by powers of the distance from that end.
-    """
-
-    part: Part
-    sense: int
-    slopes: tuple[Expr, ...]
-
-    @cached_property
-    def _from_start(self) -> list[Expr]:
-        """The same coefficients from the start of the part, which may be an edge of the contact."""
-        kink = self.part.before if self.sense > 0 else self.part.behind
-        assert kink is not None
-        inside = Max(0, -kink.left if self.sense > 0 else -kink.right)
-        count = len(self.slopes)
-        return [
-            Add(*(binomial(n, k) * self.slopes[n] * inside ** (n - k) for n in range(k, count)))
-            for k in range(count)
-        ]
-
-    @property
-    def _powers(self) -> Iterator[tuple[int, Expr]]:
-        """Powers of u/h in g'', each with its coefficient."""
-        for k, slope in enumerate(self._from_start[1:]):
-            if slope != 0:
-                yield k, (k + 1) * slope * h**k
-
-    def _halves(self) -> tuple[Expr, ...]:
-        """Sines and cosines of half the angles of start and end; reversed if g' grows leftward."""
-        halves = (*self.part.begins, *self.part.ends)
-        return halves[:: self.sense]
-
-    def _moment_of(self, k: int, i: int, j: int) -> Expr:
-        return part_moment(k, *(i, j)[:: self.sense], self.part.t, *self._halves())
-
-    def moment(self, i: int, j: int) -> Expr:
-        """int g'' A**i B**j dtheta, with A and B divided by h."""
-        return Add(*(bend * self._moment_of(k, i, j) for k, bend in self._powers))
-
-    @property
-    def lean(self) -> Expr:
-        """int g'/w ds."""
-        first, *others = self._from_start
-        grown = (s * h**k * self._moment_of(k, 0, 0) for k, s in enumerate(others, start=1))
-        return self.sense * (first * self.part.t + Add(*grown))
-
-    @property
-    def seen(self) -> Expr:
-        """int g'' L ds over h, for the pressure at x."""
-        place = (sin_x, cos_x)[:: self.sense]
-        offsets = ((x - self.part.beginning) / h, (self.part.ending - x) / h)[:: self.sense]
-        given = (self.part.t, *self._halves(), *place, *offsets)
-        return Add(*(bend * rising_pressure(k, *given) for k, bend in self._powers))
 
 
 def _distance(place: Expr, other: Expr) -> Expr:
@@ -672,11 +495,6 @@ class Parts:
         return tuple(part for part in self.parts if part.bend != 0)
 
     @property
-    def has_series(self) -> bool:
-        """Whether L_N and the next coefficient are also sums over parts."""
-        return all(part.is_uniform for part in self.parts)
-
-    @property
     def corners(self) -> Iterator[tuple[Expr, KinkFrame]]:
         """Jumps of g', each with its kink."""
         return ((k.kink.step, k) for k in self.frame.kinks if k.kink.is_corner)
@@ -693,8 +511,6 @@ class Parts:
         for edge in Edge:
             side = edge.name.lower()
             found[f"K_N_{side}"] = self.edge_coefficient(edge)
-            if not self.has_series:
-                continue
             found[f"L_N_{side}"] = self.second_coefficient(edge)
             found[f"third_{side}"] = self.third_coefficient(edge)
         return found
@@ -778,7 +594,7 @@ class Parts:
         ]
         for edge in Edge:
             symbol, at = self.bend_at(edge), f"g'' at the {edge.name.lower()} edge"
-            if isinstance(symbol, Symbol) and self.has_series:
+            if isinstance(symbol, Symbol):
                 found.append(Definition(symbol, self._bends(edge), at))
         return tuple(found)
 
@@ -825,9 +641,8 @@ class Parts:
         )
 
     def _sum(self, share: Callable[[Part], Expr]) -> Expr:
-        """Sum over g'' times a share, grouped by g''; a nonuniform part's share includes g''."""
+        """Sum over g'' times a share, grouped by g''."""
         groups: dict[Expr, Expr] = {}
         for part in self.curved:
-            bend = part.bend if part.is_uniform else S.One
-            groups[bend] = groups.get(bend, S.Zero) + share(part)
+            groups[part.bend] = groups.get(part.bend, S.Zero) + share(part)
         return factor_terms(Add(*(bend * total for bend, total in groups.items())))

@@ -21,7 +21,8 @@ def place(name: str, out: Path | None) -> Path:
             raise BadTarget(str(path), "already exists")
         if not path.parent.is_dir():
             raise BadTarget(str(path.parent), "is not a directory")
-    except OSError as error:
+        files.demand_writable(path)
+    except (OSError, ValueError) as error:
         raise _unwritable(folder, error) from error
     return path
 

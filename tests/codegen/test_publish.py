@@ -12,16 +12,15 @@ from pathlib import Path
 
 import pytest
 
-from derive.codegen import publish as publisher
 from derive.codegen.mark import MARK
 from derive.codegen.publish import (
-    demand_replaceable,
     differences,
     modules_in,
     package_files,
     publish,
 )
 from derive.errors import BadOutput
+from derive.folder import demand_replaceable, in_use
 from derive.manifest import MANIFEST
 from derive.pipeline import GENERATED
 
@@ -68,7 +67,7 @@ def test_the_list_is_one_for_sha256sum(package: Path) -> None:
 
 
 def test_the_committed_package_may_be_replaced() -> None:
-    demand_replaceable(GENERATED)
+    demand_replaceable(GENERATED, BadOutput)
 
 
 # ------------------------------------------------------------------ accepted
@@ -221,7 +220,7 @@ def failing(
 @pytest.fixture
 def in_two_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     """A system that cannot exchange two directories in one step."""
-    monkeypatch.setattr("derive.exchange._exchanged", lambda *_: False)
+    monkeypatch.setattr("derive.folder._exchanged", lambda *_: False)
 
 
 @pytest.mark.usefixtures("in_two_steps")
@@ -250,16 +249,17 @@ def test_a_failure_or_ctrl_c_in_the_middle_leaves_the_old_package(
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from derive.codegen import publish
+from derive import folder
+from derive.codegen.publish import publish
 from tests.codegen.test_publish import NEW
-real = publish.put_in_place
-def killed(fresh, folder, old):
+real = folder._put_in_place
+def killed(fresh, place, old):
     Path.replace = lambda *_: os.kill(os.getpid(), signal.SIGKILL)  # the first step of two
     if sys.argv[2] == "after":
-        real(fresh, folder, old)
+        real(fresh, place, old)
     os.kill(os.getpid(), signal.SIGKILL)
-publish.put_in_place = killed
-publish.publish(NEW, Path(sys.argv[1]))
+folder._put_in_place = killed
+publish(NEW, Path(sys.argv[1]))
 """
 
 
@@ -295,8 +295,9 @@ def leftover(package: Path, name: str = ".package-597qa82p", age: float = 60) ->
     """The hidden directory of a run that was killed while it wrote."""
     left = package.parent / name
     (left / "fresh" / "runtime").mkdir(parents=True)
-    (left / "fresh" / "cylinder.py").write_bytes(as_bytes(OLD)["cylinder.py"])
-    (left / "fresh" / "cut.py").touch()
+    for name in (MANIFEST, "cylinder.py"):
+        (left / "fresh" / name).write_bytes(as_bytes(OLD)[name])
+    (left / "fresh" / "wedge.py").touch()  # it was cut short
     then = time.time() - age
     os.utime(left, (then, then))
     return left
@@ -313,7 +314,7 @@ def test_what_a_killed_run_left_is_removed_by_the_next(package: Path) -> None:
         leftover(package, ".package-abcdefgh"),
     ]
     (others[-1] / "fresh" / "notes.txt").write_text("mine")
-    with publisher._in_use(left) as locked:
+    with in_use(left) as locked:
         assert locked
         publish(NEW, package)
     assert left.exists()

@@ -4,11 +4,13 @@ import os
 import signal
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from derive.errors import BadGeometryFile
 from derive.library import library, load_geometry
+from derive.parallel import end
 
 CYLINDER = '''"""A cylinder of one's own."""
 from derive import Geometry, parameter, x
@@ -74,15 +76,22 @@ def test_the_bytecode_switch_is_restored_after_a_failure(
     assert sys.dont_write_bytecode == switch
 
 
-PRESSES = "import os, signal\nos.kill(os.getpid(), signal.SIGINT)\nwhile True:\n    pass\n"
+PRESSES = "import os, signal\nos.kill(os.getpid(), signal.{})\nwhile True:\n    pass\n"
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no signal can be sent to a process of one's own")
-def test_ctrl_c_while_a_file_is_loaded_is_no_mistake_in_the_file(tmp_path: Path) -> None:
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+@pytest.mark.parametrize(
+    ("name", "handler", "error"),
+    [("SIGINT", signal.default_int_handler, KeyboardInterrupt), ("SIGTERM", end, SystemExit)],
+)
+def test_a_signal_while_a_file_is_loaded_is_no_mistake_in_the_file(
+    name: str, handler: Any, error: type[BaseException], tmp_path: Path
+) -> None:
+    number = signal.Signals[name]
+    before = signal.signal(number, handler)
     try:
-        with pytest.raises(KeyboardInterrupt):
-            load_geometry(written(tmp_path / "presses.py", PRESSES))
-        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        with pytest.raises(error):
+            load_geometry(written(tmp_path / "presses.py", PRESSES.format(name)))
+        assert signal.getsignal(number) is handler
     finally:
-        signal.signal(signal.SIGINT, before)
+        signal.signal(number, before)

@@ -161,6 +161,15 @@ def test_what_is_no_table(x: Any, p: Any, words: str) -> None:
         fit_pressure(x, p)
 
 
+@pytest.mark.parametrize("loaded", [0, 5])
+def test_no_change_in_shear_is_said(loaded: int) -> None:
+    """At no node, or only at a few of them."""
+    x = np.linspace(0, 1, 40)
+    found = fit_stuck_shear(x, np.where(np.arange(40) < loaded, 1.0, 0.0), 0.0)
+    assert np.isnan(found.K_T)
+    assert found.warning == "the change in the shear traction is zero at most nodes"
+
+
 def test_an_edge_elsewhere_is_refused() -> None:
     x = np.linspace(0, 1, 40)
     with pytest.raises(ValueError, match="does not lie next to"):

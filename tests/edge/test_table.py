@@ -126,6 +126,10 @@ BAD = [
     (with_line("0.05,----"), "has '----' instead of a finite number in column 'p'"),
     (with_line("0.05,1_0"), "has '1_0' instead of a finite number in column 'p'"),
     (with_line("0.05,0x1F"), "has '0x1F' instead of a finite number in column 'p'"),
+    (with_line("0.05,5e-324"), "has '5e-324' in column 'p', and numbers other than 0 must"),
+    (with_line("1e-34,3.0"), "has '1e-34' in column 'x', and numbers other than 0 must"),
+    (with_line("0.05,1e25"), "between 1e-30 and 1e+30 in SI units"),  # 1e31 Pa
+    (HEAD + rows(1e35 * X, P), "between 1e-30 and 1e+30 in SI units"),
     (with_line("-0.9,3.0"), "x changes its direction"),
     (with_line(f"{X[24]:.6f},3.0"), "two nodes lie at x"),
     (HEAD + rows(X[::2].tolist() + X[1::2].tolist(), P), "x changes its direction"),
@@ -258,6 +262,20 @@ def test_without_an_edge_shear_is_not_said_to_be_missing(path: Path) -> None:
     notes = find(read(path), "t.csv", 0.5).notes
     assert any("neither edge was found" in note for note in notes)
     assert not any("has no shear" in note for note in notes)
+
+
+@pytest.mark.parametrize("size", [1e-28, 1e27])
+@pytest.mark.parametrize("wide", [1e-25, 1e26])
+def test_numbers_of_any_size_that_is_allowed(path: Path, size: float, wide: float) -> None:
+    """Nothing overflows: warnings are errors here.  K_N goes with p/sqrt(x)."""
+    path.write_text("x [m],p [Pa]\n" + "".join(f"{x},{p}\n" for x, p in zip(X, P, strict=True)))
+    plain = find(read(path), path.name, 0.5)
+    path.write_text(
+        "x [m],p [Pa]\n" + "".join(f"{wide * x},{size * p}\n" for x, p in zip(X, P, strict=True))
+    )
+    found = find(read(path), path.name, 0.5)
+    for large, one in zip(found.edges, plain.edges, strict=True):
+        assert_allclose(large.pressure.K_N, one.pressure.K_N * size / wide**0.5, rtol=1e-6)
 
 
 def test_one_edge_alone(path: Path) -> None:

@@ -15,7 +15,7 @@ from derive.errors import BadFormula
 from derive.paper.claim_table import OF_A_CLAIM
 from derive.paper.formula import Names, equation, formula
 from derive.paper.latex import Latex
-from derive.paper.userfile import open_readings
+from derive.paper.userfile import KEYS, open_readings
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "cattaneo_mindlin.toml"
@@ -134,6 +134,9 @@ BAD = {
     "no label": (HEAD + '[[claims]]\nprinted = "A = R"\n', "no label"),
     "unknown body": ('body = "sphere"\n' + CIRCLE, "not in the library"),
     "bad name": (CIRCLE.replace("[symbols]", '[symbols]\n"a b" = "r"'), "not a valid name"),
+    "a meaning": (CIRCLE.replace("high = 0.9", "high = 0.9, meaning = 5"), "meaning = 5 is not"),
+    "a label": (HEAD + '[[claims]]\nlabel = 5\nprinted = "A = R"\n', "label = 5 is not a string"),
+    "truth as a bound": (CIRCLE.replace("low = 0.1", "low = false"), "no valid range"),
     "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no valid range"),
     "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
     "control character": (CIRCLE.replace('"area"', '"a\\u001b[2J"'), "control character"),
@@ -150,6 +153,34 @@ def test_bad_input_is_one_message_and_status_two(case: str, tmp_path: Path) -> N
     assert part in done.stderr
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
+
+
+DAY = "1979-05-27"
+"""A date in TOML, which no key allows."""
+
+
+@pytest.mark.parametrize("key", sorted(KEYS))
+def test_a_key_of_a_file_with_a_value_of_another_type(key: str, tmp_path: Path) -> None:
+    text = f"{key} = {DAY}\n"
+    if key == "title":
+        text += CIRCLE.replace('title = "A disc"\n', "")
+    elif key != "claims":
+        text += one("1 = 1")
+    done = run(written(tmp_path, text))
+    assert done.exit_code == 2, done.output
+    assert key in done.stderr and "Traceback" not in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize("key", sorted(OF_A_CLAIM - {"label", "printed"}))
+def test_a_key_of_a_claim_with_a_value_of_another_type(key: str, tmp_path: Path) -> None:
+    text = CIRCLE.replace("printed", "latex") if key in ("part", "understood") else CIRCLE
+    right = '[[claims]]\nlabel = "right"\nprinted = "A = pi*R**2"\n'
+    done = run(written(tmp_path, f"{text}{key} = {DAY}\n{right}"), "--format", "json")
+    wrong, other = json.loads(done.stdout)
+    assert (done.exit_code, other["verdict"], wrong["verdict"]) == (1, "holds", "unchecked")
+    assert key in wrong["reason"]
+    assert "could not be read" not in wrong["reason"]
 
 
 BAD_CLAIMS = {
@@ -181,6 +212,13 @@ BAD_CLAIMS = {
     "limit": (CIRCLE + "as = 'r - 0'\n", "as: this is not a limit"),
     "part": (CIRCLE.replace("printed", "latex") + "part = 9\n", "part = 9"),
     "given": (CIRCLE + "given = ['nothing']\n", "given: 'nothing' is not a claim"),
+    "no flag": (
+        CIRCLE + "leading = false\n",
+        "leading = False is not allowed",
+    ),
+    "symbol": (CIRCLE + "symbols = { R = true }\n", "'R' is True, which is not a string"),
+    "bound": (CIRCLE + "allowed = { r = 1979-05-27 }\nbeyond = { r = 'k' }\n", "not a string"),
+    "range": (CIRCLE + "ranges = { r = [false, true] }\n", "r does not have two ends"),
 }
 
 

@@ -9,7 +9,6 @@ import pytest
 from mpmath import mpf
 
 from generated.runtime import segments
-from generated.runtime.kernels import COMPILED, kernel, real
 
 DIGITS = 90
 """So many that differences of the definitions keep 40."""
@@ -118,39 +117,6 @@ def test_the_pressure_of_a_part_between_kinks() -> None:
         assert worst(cases()) < 3e-15
 
 
-def moments(low: mpf, high: mpf, f: mpf, k: int) -> tuple[mpf, mpf, mpf]:
-    """Of u**k A B dtheta and u**k L ds over a part by quadrature, and its length; all over h."""
-    length = mpmath.sin(high - low) * mpmath.sin(high + low)
-
-    def u(v: mpf) -> mpf:
-        return mpmath.sin(v - low) * mpmath.sin(v + low) / length
-
-    def pressed(v: mpf) -> mpf:
-        near = abs(mpmath.sin(v - f)) or mpf(10) ** -DIGITS
-        return u(v) ** k * mpmath.log(mpmath.sin(v + f) / near) / 2 * mpmath.sin(2 * v)
-
-    ends = [low, *([f] if low < f < high else []), high]
-    area = mpmath.quad(lambda v: u(v) ** k * mpmath.sin(2 * v) ** 2 / 2, [low, high])
-    return length**k * area, length**k * mpmath.quad(pressed, ends), length
-
-
-@pytest.mark.parametrize("k", [0, 2, 5])
-def test_the_moments_of_a_part(k: int) -> None:
-    rng = Random(k)
-    with mpmath.workdps(40):
-        for number in range(12):
-            low, high, f = halves(rng)
-            low *= number % 3 > 0  # some begin at an edge, some end at one
-            high = high if number % 4 else mpmath.pi / 2
-            sines = [g(v) for v in (low, high, f) for g in (mpmath.sin, mpmath.cos)]
-            area, pressed, length = moments(low, high, f, k)
-            past = mpmath.sin(f - low) * mpmath.sin(f + low)
-            part = map(float, (2 * (high - low), *sines[:4]))
-            given = (*part, *map(float, (*sines[4:], past, length - past)))
-            assert abs(segments.part_moment(k, 1, 1, *given[:5]) / area - 1) < 1e-14
-            assert abs(segments.rising_pressure(k, *given) / pressed - 1) < 1e-13
-
-
 @pytest.mark.parametrize("name", ["second_term", "third_term"])
 def test_the_next_terms_of_the_pressure(name: str) -> None:
     rng, function = Random(4), getattr(segments, name)
@@ -194,39 +160,3 @@ def test_a_place_on_a_kink_has_a_pressure() -> None:
         for d in (0.0, 1e-12)
     )
     assert abs(at / beside - 1) < 1e-10
-
-
-NAMES = (
-    *("segment", "involute", "edge_angle", "part_area", "part_arm", "part_weight", "root_ratio"),
-    *("second_term", "third_term", "end_pressure", "part_pressure"),
-)
-MOMENTS = {
-    "part_moment": lambda *each: segments.part_moment(2, 1, 0, *each),
-    "rising_pressure": lambda *each: segments.rising_pressure(3, *each),
-}
-
-
-@pytest.mark.parametrize(
-    ("name", "count"),
-    [*dict.fromkeys(NAMES, 0).items(), ("part_moment", 5), ("rising_pressure", 9)],
-)
-def test_arrays_and_compiled_functions_have_the_values_of_numbers(name: str, count: int) -> None:
-    plain = getattr(segments, name)
-    function = MOMENTS.get(name, plain)
-    if count:
-        lows, highs, places = np.array([[0.1, 0.2, 0.0], [0.5, 1.0, 1.5], [0.3, 1.4, 0.7]])
-        ends = [g(v) for v in (lows, highs, places) for g in (np.sin, np.cos)]
-        past = np.sin(places - lows) * np.sin(places + lows)
-        ahead = np.sin(highs - places) * np.sin(highs + places)
-        given = np.array([2 * (highs - lows), *ends, past, ahead][:count])
-    else:
-        given = np.random.default_rng(5).uniform(0.05, 0.95, (plain.__code__.co_argcount, 40))
-    alone = [function(*map(float, row)) for row in given.T]
-    with np.errstate(all="raise"):
-        np.testing.assert_allclose(function(*given), alone, rtol=1e-14)
-    if COMPILED and not count:
-        import numba
-
-        kernel(real(real))(lambda value: value)  # tells numba of the functions
-        compiled = numba.njit(real(*[real] * len(given)), error_model="numpy")(plain)
-        assert [compiled(*row) for row in given.T] == pytest.approx(alone, rel=1e-14)

@@ -304,6 +304,8 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
     y = dq * np.sqrt(s)
     level = np.full(len(y), float(np.median(np.abs(y))))
     half = max(len(y) // 2, SPAN)
+    if not level[0] > 0:
+        return _no_shear("the change in the shear traction is zero at most nodes", half)
     mesh_error = MESH * (spacing / s[:half]) ** DECAY
     sd = np.hypot(_scatter(s, y, level), mesh_error) * level[:half]
     found = _chosen(s[:half], y[:half], sd, STUCK, 0, _ends)
@@ -318,7 +320,8 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
         shift = min(edge_error, 0.9 * float(s[0]))
         shifted = [_fit_ends(s, dq, sign * shift, found) for sign in (-1, 1)]
         errors = np.hypot(errors, np.abs(shifted[1] - shifted[0]) / 2 * (edge_error / shift))
-    warning = _warning(half, found.misfit, abs(errors[0] / values[0]), "K_T")
+    part = abs(errors[0] / values[0]) if values[0] else math.inf
+    warning = _warning(half, found.misfit, part, "K_T")
     return ShearFit(
         float(values[0]),
         float(values[1]),

@@ -112,10 +112,9 @@ NEAR = 1e-4
 STEPS = 80
 """Largest number of steps to find the end of phase 2."""
 
-STRIP, BESIDE = 2e-3, 4e-3
-"""Width of the strip beyond the moderate zone in which tables fail and the solution is
-extrapolated, and the point from which it is extrapolated, both as (a + n - H)/(a + c)."""
-
+STRIP = 1e-4
+"""Width of the strip beyond the moderate zone in which the moderate solution stands in for tables
+that fail, as (a + n - H)/(a + c).  It is off by less than the square of this."""
 
 CROWDED, CROWDED_WEIGHTS = double_exponential(2.0**-4)
 """The quadrature of the gain, which has square roots and near singularities at both ends."""
@@ -464,44 +463,23 @@ def zone_by_phases(law: Any, own: Any, cycle: Any, sense: float) -> Any:
     return math.nan, math.nan
 
 
-@kernel(results(3)(LAW, vector, matrix, vector, real))
-def _moderate(law: Any, own: Any, ends: Any, cycle: Any, times: float) -> Any:
-    """m and n under moderate tension at `times` the given tension, oriented so that it is positive.
-
-    The third value is (a + n - H)/(a + c).
-    """
-    trial = cycle.copy()
-    trial[5] *= times
-    m, n = patch(law, own, ends, 0, 1, 1.0, trial)
-    a = cycle[0]
-    if trial[5] < 0:
-        m, n, a = n, m, cycle[1]
-    excess = a + n - 8 * cycle[4] / (math.pi * abs(trial[5]))
-    return m, n, excess / (cycle[0] + cycle[1])
-
-
 @kernel(results(2)(LAW, vector, matrix, vector))
 def mixed_zone(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
     """m and n of a cycle of constant loads in which slip reverses; NaN if they are not found.
 
-    In a strip beyond the end of the moderate zone, tables fail.  There n departs from the moderate
-    solution as the square of a + n - H, and m departs far less.  Both departures are scaled from
-    those at a slightly larger tension.
+    Just beyond the end of the moderate zone, tables may fail.  There n departs from the moderate
+    solution as the square of (a + n - H)/(a + c), and m departs far less.
 
     ends, cycle: as in zone.py.
     """
     sense, as_oriented = sense_of(cycle), oriented(cycle)
     m, n = zone_by_phases(law, own, as_oriented, sense)
-    m_0, n_0, past = _moderate(law, own, ends, cycle, 1.0)
-    if math.isnan(m) and 0 < past <= STRIP:
-        rate = (_moderate(law, own, ends, cycle, 1 + STRIP)[2] - past) / STRIP
-        times = 1 + (BESIDE - past) / rate
-        m_1, n_1, beyond = _moderate(law, own, ends, cycle, times)
-        more = as_oriented.copy()
-        more[5] *= times
-        m, n = zone_by_phases(law, own, more, sense)
-        part = (past / beyond) ** 2
-        m, n = m_0 + part * (m - m_1), n_0 + part * (n - n_1)
+    if math.isnan(m):
+        m, n = patch(law, own, ends, 0, 1, 1.0, cycle)
+        receding = n if sense > 0 else m
+        past = as_oriented[0] + receding - 8 * as_oriented[4] / (math.pi * as_oriented[5])
+        within = 0 < past <= STRIP * (cycle[0] + cycle[1])
+        return (m, n) if within else (math.nan, math.nan)
     return (m, n) if sense > 0 else (n, m)
 
 

@@ -5,7 +5,7 @@ from functools import cache
 
 import mpmath
 import pytest
-from sympy import Integral, Piecewise, Rational, cos, lambdify, sin
+from sympy import Piecewise, Rational
 
 from derive.derivation import derive_sheet
 from derive.geometry import Geometry, parameter
@@ -17,11 +17,8 @@ from derive.sheet import FormulaSheet
 from derive.symbols import x
 from derive.theory.edges import Edge, pressure_series
 from derive.theory.segments import (
-    Named,
     Parts,
     has_parts,
-    part_moment,
-    rising_pressure,
     written_out,
 )
 
@@ -84,38 +81,6 @@ def test_what_the_rounded_edges_of_a_punch_carry_is_two_segments() -> None:
         assert f"    {line}\n" in str(sheet)
     assert r"\operatorname{segment}{\left(t_{1} \right)}" in sheet.latex
     assert r"\sin_{1}" in sheet.latex
-
-
-@pytest.mark.parametrize("powers", [(0, 1, 1), (1, 1, 0), (2, 0, 1), (3, 1, 1)])
-def test_a_moment_by_parts_is_the_integral_that_is_printed(powers: tuple[int, ...]) -> None:
-    demand_the_integral(part_moment(*powers, *PART))
-
-
-@pytest.mark.parametrize("k", [0, 1, 3])
-@pytest.mark.parametrize("angle", [0.2, 0.9, 1.4])
-def test_a_pressure_by_parts_is_the_integral_that_is_printed(k: int, angle: float) -> None:
-    """Half the angle of x is before, within and behind the part."""
-    start, end, place = (sin(value) ** 2 for value in (START, END, angle))
-    at_x = sin(angle), cos(angle), place - start, end - place
-    singular = [angle] if START < angle < END else []
-    demand_the_integral(rising_pressure(k, *PART, *at_x), *singular)
-
-
-START, END = 0.5, 1.1
-"""Half the angles of the ends of a part."""
-PART = (2 * (END - START), sin(START), cos(START), sin(END), cos(END))
-
-
-def demand_the_integral(call: Named, *singular: float) -> None:
-    """Demand that the value in elementary functions is that of the definition as an integral."""
-    (integral,) = call.definition().atoms(Integral)
-    front = call.definition() / integral
-    given = dict(zip(call.letters, call.args, strict=True))
-    ((f, *limits),) = integral.limits
-    start, end = (value.subs(given) for value in limits)
-    integrand = lambdify(f, (front * integral.function).subs(given), "mpmath")
-    value = mpmath.quad(integrand, [start, *singular, end])
-    assert abs(call.written_out / value - 1) < 1e-12
 
 
 def test_bodies_that_a_contact_cannot_leave_keep_one_form() -> None:
