@@ -34,23 +34,9 @@ def latex_of_equation(equation: Claim | Repair, relation: Relation) -> str:
 
 
 def _of(expr: Expr) -> str:
-    """Return `expr` in LaTeX, with Delta_Q as a difference and g_prime with a prime."""
-    return latex_of(expr.xreplace({s: Symbol(_spelled(s.name)) for s in expr.free_symbols}))
-
-
-def _spelled(name: str) -> str:
-    """Spell a name in LaTeX.
-
-    Braces prevent SymPy from changing the spelling.  A call of a formula is kept as a call.
-    """
-    if "(" in name:
-        return rf"\mathtt{{{_plain(name)}}}"
-    stem, _, rest = name.partition("_")
-    if stem == "Delta" and rest:
-        inner, _, index = rest.partition("_")
-        letter = rf"\{inner}" if len(inner) > 1 else inner
-        return rf"{{\Delta {letter}{f'_{{{index}}}' if index else ''}}}"
-    return f"{{{stem}'}}" if rest == "prime" else name
+    """Return `expr` in LaTeX; a call of a formula, which has been given a symbol, stays a call."""
+    calls = {s: Symbol(rf"\mathtt{{{_plain(s.name)}}}") for s in expr.free_symbols if "(" in s.name}
+    return latex_of(expr.xreplace(calls))
 
 
 def as_displayed(equation: Claim | Repair) -> str:

@@ -22,7 +22,7 @@ from derive.body import Body
 from derive.cli import main
 from derive.errors import BadPage
 from derive.handbook.curves import pictures
-from derive.handbook.mathml import mathml
+from derive.mathml import mathml
 from derive.handbook.page import entry, index, page, proven
 from derive.handbook.picture import Line, svg
 from derive.manifest import MANIFEST
