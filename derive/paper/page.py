@@ -32,7 +32,7 @@ body { font: 16px/1.45 Georgia, serif; max-width: 60rem; margin: 2rem auto; padd
 table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: .2rem .6rem; }
 tr + tr td { border-top: 1px solid #ddd; } code { font-size: .85rem; overflow-wrap: anywhere; }
 section { border-top: 2px solid #999; margin-top: 1.5rem; break-inside: avoid; }
-dt { color: #666; } dd { margin: 0 0 .5rem 1.5rem; overflow-x: auto; } math { font-size: 1.1rem; }
+dt { color: #666; } dd { margin: 0 0 .5rem 1.5rem; padding: .2rem 0; overflow: auto hidden; } math { font-size: 1.1rem; }
 math { font-family: "Latin Modern Math", "STIX Two Math", "Cambria Math", math; }
 .fails, .convention { color: #b00020; } .holds, .numerical, .by { color: #1b6e2d; }
 .unchecked { color: #8a6100; } svg { max-width: 26rem; width: 100%; }
@@ -57,6 +57,7 @@ def as_html(paper: Paper, findings: Sequence[Finding]) -> str:
     return (
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        '<meta name="generator" content="derive check --html">'
         f"<title>{title}</title><style>{_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
         f"<p>{escape(summary(findings))}.</p>\n"
         f"<table><tr><th>claim</th><th>description</th><th>verdict</th></tr>\n{rows}</table>\n"

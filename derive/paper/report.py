@@ -13,6 +13,7 @@ from sympy import Expr, Symbol
 
 from derive.notation import latex_of, text_of
 from derive.paper.claim import Claim, Paper, Relation, Verdict
+from derive.paper.repair import in_words
 from derive.paper.verdict import Finding, Repair
 
 _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
@@ -82,7 +83,7 @@ def lines_of(text: str) -> list[str]:
 
 def _changes(repair: Repair) -> str:
     also = f", as would {' or '.join(repair.also)}" if repair.also else ""
-    return f"{repair.kind} {repair.what}{also}"
+    return in_words(repair.kind, repair.what) + also
 
 
 def _tried(tried: Counter[str]) -> str:
@@ -273,8 +274,9 @@ def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
         if finding.repair:
             lines += ["Corrected:", *_display(finding.repair, finding.repair.relation)]
         lines.append(rf"Evidence: {_plain(evidence(finding))}.")
-        if consequence := finding.claim.consequence:
-            lines.append(rf"\par Consequence: {_plain(consequence)}.")
+        if consequences := finding.claim.consequences:
+            lines.append(r"\par Consequence:")
+            lines += [rf"\par {_plain(line)}" for line in consequences]
     return "\n".join([*lines, r"\end{document}", ""])
 
 
@@ -304,7 +306,6 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
     entries = [
         ("description", [claim.says]),
         ("place", [claim.place] if claim.place != claim.name else []),
-        ("label", [claim.label] if claim.label != claim.name else []),
         ("printed", [printed(claim) or "no equation"]),
         ("compared with", [claim.against] if claim.against else []),
         ("steps", list(claim.steps)),
