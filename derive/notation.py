@@ -3,9 +3,10 @@
 import re
 from functools import cache
 
-from sympy import Add, Basic, Expr, Mul, Pow, Rel, S, Symbol, latex, sstr
+from sympy import Add, Basic, Expr, Integral, Mul, Pow, Rel, S, Symbol, sstr
 from sympy.printing.conventions import split_super_sub
-from sympy.printing.latex import translate
+from sympy.printing.latex import LatexPrinter, translate
+from sympy.printing.precedence import PRECEDENCE
 
 from derive.symbols import QUANTITIES
 
@@ -25,15 +26,25 @@ def latex_of(expr: Basic) -> str:
     """`expr` in LaTeX, in the notation of the theory."""
     symbols = {s: latex_name(s.name) for s in expr.atoms(Symbol)}
     has_words = any(name.startswith(r"\mathrm") for name in symbols.values())
-    return str(
-        latex(
-            gathered(expr),
-            symbol_names=symbols,
-            mul_symbol=r"\," if has_words else None,
-            ln_notation=True,
-            diff_operator="rd",
-        )
-    )
+    settings = {
+        "symbol_names": symbols,
+        "mul_symbol": r"\," if has_words else None,
+        "ln_notation": True,
+        "diff_operator": "rd",
+    }
+    return str(_Printer(settings).doprint(gathered(expr)))
+
+
+class _Printer(LatexPrinter):  # type: ignore[misc]
+    """Writes the integrals of a product last, beside the fraction."""
+
+    def _print_Mul(self, expr: Mul) -> str:
+        last = [f for f in expr.args if isinstance(f, Integral) or hasattr(f, "integrates")]
+        rest = Mul(*(f for f in expr.args if f not in last), evaluate=False)
+        if not last or rest == 1:
+            return str(super()._print_Mul(expr))
+        before = "-" if rest == -1 else self.parenthesize(rest, PRECEDENCE["Mul"], strict=True)
+        return " ".join([before, *map(self._print, last)])
 
 
 @cache
