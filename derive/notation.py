@@ -35,7 +35,7 @@ def latex_of(expr: Basic) -> str:
     return str(_Printer(settings).doprint(gathered(expr)))
 
 
-class _Printer(LatexPrinter):  # type: ignore[misc]
+class _Printer(LatexPrinter):
     """Writes the integrals of a product last, beside the fraction."""
 
     def _print_Mul(self, expr: Mul) -> str:

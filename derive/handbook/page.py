@@ -14,8 +14,8 @@ from pygments.lexers import PythonLexer
 from derive.body import Body
 from derive.errors import NotProven
 from derive.handbook.curves import pictures, profile
-from derive.mathml import mathml
 from derive.handbook.prose import prose, unit
+from derive.mathml import mathml
 from derive.notation import latex_of
 from derive.proof.verdict import Verdict
 from derive.sheet import FormulaSheet

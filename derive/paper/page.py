@@ -32,8 +32,8 @@ body { font: 16px/1.45 Georgia, serif; max-width: 60rem; margin: 2rem auto; padd
 table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: .2rem .6rem; }
 tr + tr td { border-top: 1px solid #ddd; } code { font-size: .85rem; overflow-wrap: anywhere; }
 section { border-top: 2px solid #999; margin-top: 1.5rem; break-inside: avoid; }
-dt { color: #666; } dd { margin: 0 0 .5rem 1.5rem; padding: .2rem 0; overflow: auto hidden; } math { font-size: 1.1rem; }
-math { font-family: "Latin Modern Math", "STIX Two Math", "Cambria Math", math; }
+dt { color: #666; } dd { margin: 0 0 .5rem 1.5rem; padding: .2rem 0; overflow: auto hidden; }
+math { font-size: 1.1rem; font-family: "Latin Modern Math", "STIX Two Math", "Cambria Math", math; }
 .fails, .convention { color: #b00020; } .holds, .numerical, .by { color: #1b6e2d; }
 .unchecked { color: #8a6100; } svg { max-width: 26rem; width: 100%; }
 """

@@ -6,8 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich.console import Console
-from sympy import Expr, Gt, Rational, Symbol, parse_expr, pi, sqrt, symbols
+from sympy import Expr, Gt, Integral, Mul, Rational, Symbol, parse_expr, pi, sqrt, symbols
 
+from derive.library import library
 from derive.notation import gathered, latex_of, text_of
 from derive.symbols import QUANTITIES, E_star, P
 from derive.view import formulas
@@ -53,7 +54,11 @@ def test_gathering_never_changes_the_value(
 LATEX = {
     **{"E_star": "E^{*}", "alpha": r"\alpha", "dQ": r"\Delta Q", "dsigma": r"\Delta\sigma"},
     **{"K_N_left": r"K_{N,\mathrm{left}}", "q_left_2": r"q_{\mathrm{left},2}"},
-    **{"theta_1": r"\theta_{1}", "P_prime": "P'"},
+    **{"theta_1": r"\theta_{1}", "P_prime": "P'", "L_T_left": r"L_{T,\mathrm{left}}"},
+    **{"S_right": r"S_{\mathrm{right}}", "d_exact_left": r"d_{\mathrm{exact},\mathrm{left}}"},
+    **{"Delta_K_T": r"\Delta K_{T}", "Delta_sigma_th": r"\Delta \sigma_{\mathrm{th}}"},
+    **{"Delta_1": r"\Delta_{1}", "radius": r"\mathrm{radius}", "alpha_a": r"\alpha_{a}"},
+    **{"dP_dQ": r"\frac{\mathrm{d}P}{\mathrm{d}Q}", "cos_1": r"\cos_{1}", r"\chi": r"\chi"},
 }
 
 
@@ -61,6 +66,31 @@ LATEX = {
 def test_symbols_are_set_as_the_theory_writes_them(name: str) -> None:
     quantity = QUANTITIES.get(name)
     assert latex_of(quantity.symbol if quantity else Symbol(name)) == LATEX[name]
+
+
+@pytest.mark.parametrize("name", library())
+def test_no_word_of_a_sheet_is_italic(name: str) -> None:
+    """Two letters side by side are a product, a command, or the word of a command."""
+    upright = re.sub(r"\\(mathrm|operatorname|text|begin|end)\{[^{}]*\}", "", sheet(name).latex)
+    assert not re.findall(r"(?<![\\A-Za-z])[A-Za-z]{2,}", upright)
+
+
+def test_powers_of_one_base_have_one_exponent() -> None:
+    """The last: p q**2/p**k with p = 2, q = 3, k = 3 is 2 * 9/8 = 9/4."""
+    k = Symbol("k", positive=True)
+    expr = Mul(p, p**-k, q**k, 1 / q)
+    assert gathered(expr) == p ** (1 - k) * q ** (k - 1)
+    assert latex_of(expr) == "p^{1 - k} q^{k - 1}"
+    assert gathered(p * q**2 / p**k).subs({p: 2, q: 3, k: 3}) == Rational(9, 4)
+
+
+def test_an_integral_stands_beside_its_fraction() -> None:
+    integral = Integral(p**2, (p, 0, q))
+    assert latex_of(-integral / pi).startswith(r"- \frac{1}{\pi} \int")
+    assert latex_of((p + q) * integral).startswith(r"\left(p + q\right) \int")
+    assert latex_of(-integral).startswith(r"- \int") and latex_of(1 / integral).startswith(
+        r"\frac{1}{"
+    )
 
 
 @pytest.mark.parametrize("name", ["hertz", "wedge", "two_radii", "flat_rounded"])
