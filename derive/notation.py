@@ -36,7 +36,11 @@ def latex_of(expr: Basic) -> str:
 
 
 class _Printer(LatexPrinter):
-    """Writes the integrals of a product last, beside the fraction."""
+    """Writes the integrals of a product last, beside the fraction, and no sum with a minus first."""
+
+    def _as_ordered_terms(self, expr: Add, order: str | None = None) -> list[Expr]:
+        terms = list(super()._as_ordered_terms(expr, order=order))
+        return sorted(terms, key=lambda term: term is not _first_with_plus(terms))
 
     def _print_Mul(self, expr: Mul) -> str:
         last = [f for f in expr.args if isinstance(f, Integral) or hasattr(f, "integrates")]
@@ -45,6 +49,11 @@ class _Printer(LatexPrinter):
             return str(super()._print_Mul(expr))
         before = "-" if rest == -1 else self.parenthesize(rest, PRECEDENCE["Mul"], strict=True)
         return " ".join([before, *map(self._print, last)])
+
+
+def _first_with_plus(terms: list[Expr]) -> Expr:
+    """The first term without a minus sign, or the first one."""
+    return next((term for term in terms if not term.could_extract_minus_sign()), terms[0])
 
 
 @cache

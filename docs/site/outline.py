@@ -35,7 +35,6 @@ def _slipped(weight: Expr) -> Expr:
     return Integral(inside, (xi, -a, -m)) + Integral(inside, (xi, n, c))
 
 
-_RATIO = sqrt((xi + m) / (xi - n))
 _PULL = pi * dsigma * (m + n) / 8
 _STRAIN = slope(s) + alpha
 
@@ -65,7 +64,10 @@ EQUATIONS: dict[str, tuple[tuple[Expr, Expr], ...]] = {
     ),
     "full_stick": ((dq(x), stick.full_stick_change()),),
     "slip": ((dq(x), kappa * f * (p_1(x) + p_2(x))),),
-    "stick_zone": ((_slipped(_RATIO), dQ - _PULL), (_slipped(1 / _RATIO), dQ + _PULL)),
+    "stick_zone": (
+        (_slipped(sqrt((xi + m) / (xi - n))), dQ - _PULL),
+        (_slipped(sqrt((xi - n) / (xi + m))), dQ + _PULL),
+    ),
     "first_order": ((d, slip.slip_zone(pi * sqrt(theory.h) * K_T, K_N).subs(theory.h, h)),),
     "difference": ((dq(x), f * (p_1(x) + p_2(x) - 2 * p_s(x))),),
     "moderate": ((P_s, stick.moderate(P)), (alpha_s, stick.moderate(alpha))),
