@@ -36,7 +36,7 @@ def latex_of(expr: Basic) -> str:
 
 
 class _Printer(LatexPrinter):
-    """Writes the integrals of a product last, beside the fraction, and no sum with a minus first."""
+    """Writes the integrals of a product beside its fraction, and begins a sum without a minus."""
 
     def _as_ordered_terms(self, expr: Add, order: str | None = None) -> list[Expr]:
         terms = list(super()._as_ordered_terms(expr, order=order))
