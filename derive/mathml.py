@@ -46,6 +46,7 @@ def mathml(latex: str, display: str = "block") -> Markup:
     tree = convert_to_element(latex.replace("{aligned}", "{split}"), display=display)
     _join_words(tree)
     _put_spaces(tree)
+    _align(tree)
     formula = unescape(tostring(tree, encoding="unicode"))
     if _LEFT.search(formula):
         raise ValueError(f"the formula is not typeset completely: {latex}")
@@ -83,3 +84,12 @@ def _is_word(element: Element) -> bool:
     """Whether an element is the name of a function or a word, with or without indices."""
     base = element[0] if element.tag in _SCRIPTS else element
     return base.tag == "mi" and _WORD.fullmatch(base.text or "") is not None
+
+
+def _align(tree: Element) -> None:
+    """Align the cells of a table by a style, because browsers ignore `columnalign`."""
+    for table in tree.iter("mtable"):
+        padding = "; padding-left: 0; padding-right: 0" * (table.get("columnspacing") == "0em")
+        for cell in table.iter("mtd"):
+            if align := cell.get("columnalign"):
+                cell.set("style", f"text-align: {align}{padding}")

@@ -8,11 +8,10 @@ from hypothesis import strategies as st
 from rich.console import Console
 from sympy import Expr, Gt, Integral, Mul, Rational, Symbol, parse_expr, pi, sqrt, symbols
 
-from derive.library import library
 from derive.notation import gathered, latex_of, text_of
 from derive.symbols import QUANTITIES, E_star, P
 from derive.view import formulas
-from tests.derive.bodies import close, number, sheet
+from tests.derive.bodies import BODIES, close, number, sheet
 
 pytestmark = pytest.mark.slow
 
@@ -68,7 +67,7 @@ def test_symbols_are_set_as_the_theory_writes_them(name: str) -> None:
     assert latex_of(quantity.symbol if quantity else Symbol(name)) == LATEX[name]
 
 
-@pytest.mark.parametrize("name", library())
+@pytest.mark.parametrize("name", BODIES)
 def test_no_word_of_a_sheet_is_italic(name: str) -> None:
     """Two letters side by side are a product, a command, or the word of a command."""
     upright = re.sub(r"\\(mathrm|operatorname|text|begin|end)\{[^{}]*\}", "", sheet(name).latex)

@@ -194,6 +194,8 @@ def test_words_are_one_identifier_and_single_letters_are_upright() -> None:
 def test_lines_of_equations_are_a_table() -> None:
     shown = mathml(r"\begin{aligned}a &= b \\ c &= d\end{aligned}")
     assert shown.count("<mtr>") == 2 and "&" not in re.sub(r"&#\w+;", "", shown)
+    for side in ("right", "left"):  # browsers ignore the attribute columnalign
+        assert shown.count(f"text-align: {side}") == 2
 
 
 def test_what_killed_runs_have_left_is_removed(pages: Path, tmp_path: Path) -> None:
