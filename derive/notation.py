@@ -42,9 +42,10 @@ class _Printer(LatexPrinter):
         terms = list(super()._as_ordered_terms(expr, order=order))
         return sorted(terms, key=lambda term: term is not _first_with_plus(terms))
 
-    def _print_Mul(self, expr: Mul) -> str:
-        last = [f for f in expr.args if isinstance(f, Integral) or hasattr(f, "integrates")]
-        rest = Mul(*(f for f in expr.args if f not in last), evaluate=False)
+    def _print_Mul(self, expr: Expr) -> str:
+        factors = Mul.make_args(expr)  # SymPy prints 1/x by this method, too
+        last = [f for f in factors if isinstance(f, Integral) or hasattr(f, "integrates")]
+        rest = Mul(*(f for f in factors if f not in last), evaluate=False)
         if not last or rest == 1:
             return str(super()._print_Mul(expr))
         before = "-" if rest == -1 else self.parenthesize(rest, PRECEDENCE["Mul"], strict=True)
