@@ -595,8 +595,7 @@ def _paper(file: Path | None, name: str | None) -> "Paper":
         source = built_in() if file is None else read_claims(file)
     if name is None:
         return source
-    chosen = tuple(claim for claim in source.claims if claim.is_called(name))
-    if not chosen:
+    if not (chosen := source.called(name)):
         raise UnknownClaim(name, tuple(claim.name for claim in source.claims))
     return replace(source, claims=chosen)
 

@@ -2,7 +2,6 @@
 
     module    input                              output
     -------   --------------------------------   -----------------------------------------------
-    mathml    LaTeX of the sheet                 MathML, which browsers can display
     picture   curves                             an SVG picture
     curves    a sheet, the text of its module    g(x), and the pressure of some contacts
     page      a sheet, its Body                  one page; the index of several pages

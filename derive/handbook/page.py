@@ -14,7 +14,7 @@ from pygments.lexers import PythonLexer
 from derive.body import Body
 from derive.errors import NotProven
 from derive.handbook.curves import pictures, profile
-from derive.handbook.mathml import mathml
+from derive.mathml import mathml
 from derive.notation import latex_of
 from derive.proof.verdict import Verdict
 from derive.prose import prose, unit

@@ -243,3 +243,7 @@ class Paper:
 
     def __getitem__(self, label: str) -> Claim:
         return next(claim for claim in self.claims if claim.label == label)
+
+    def called(self, given: str) -> tuple[Claim, ...]:
+        """Return the claims that a user may mean: one by its name, or all of one equation."""
+        return tuple(claim for claim in self.claims if claim.is_called(given))

@@ -38,6 +38,7 @@ from sympy import (
 )
 from sympy import Function as SymPyFunction
 from sympy.logic.boolalg import Boolean
+from sympy.printing.latex import LatexPrinter
 
 from derive.errors import BadFormula, BadText
 from derive.paper.claim import Relation
@@ -302,12 +303,22 @@ class PrincipalValue(SymPyFunction):
     """The principal value of an integral along a symbol between two ends; see `proper`."""
 
     nargs = 4
+    integrates = True
+
+    def _latex(self, printer: LatexPrinter) -> str:
+        inside, *limits = self.args
+        return rf"\mathrm{{PV}}\!{printer._print(Integral(inside, tuple(limits)))}"
 
 
 class ToInfinity(SymPyFunction):
     """An integral along a symbol from a lower end to infinity."""
 
     nargs = 3
+    integrates = True
+
+    def _latex(self, printer: LatexPrinter) -> str:
+        inside, *limits = self.args
+        return str(printer._print(Integral(inside, (*limits, oo))))
 
 
 IMPROPER = (PrincipalValue, ToInfinity)

@@ -7,13 +7,12 @@ is used only if it is plain MathML, because the text of a paper could contain an
 import re
 from collections.abc import Sequence
 from html import escape
-from importlib.util import find_spec
 from xml.etree import ElementTree
 
 import mpmath
 from sympy import Expr, Symbol
 
-from derive.paper.claim import Paper, Point, Verdict
+from derive.paper.claim import Claim, Paper, Point, Verdict
 from derive.paper.draw import has_integral, is_allowed
 from derive.paper.report import (
     as_displayed,
@@ -26,15 +25,15 @@ from derive.paper.report import (
     summary,
 )
 from derive.paper.values import Undecided, evaluated
-from derive.paper.verdict import Finding
+from derive.paper.verdict import Finding, Repair
 
 _STYLE = """
 body { font: 16px/1.45 Georgia, serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
 table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: .2rem .6rem; }
 tr + tr td { border-top: 1px solid #ddd; } code { font-size: .85rem; overflow-wrap: anywhere; }
 section { border-top: 2px solid #999; margin-top: 1.5rem; break-inside: avoid; }
-dt { color: #666; } dd { margin: 0 0 .5rem 1.5rem; overflow-x: auto; } math { font-size: 1.1rem; }
-math { font-family: "Latin Modern Math", "STIX Two Math", "Cambria Math", math; }
+dt { color: #666; } dd { margin: 0 0 .5rem 1.5rem; padding: .2rem 0; overflow: auto hidden; }
+math { font-size: 1.1rem; font-family: "Latin Modern Math", "STIX Two Math", "Cambria Math", math; }
 .fails, .convention { color: #b00020; } .holds, .numerical, .by { color: #1b6e2d; }
 .unchecked { color: #8a6100; } svg { max-width: 26rem; width: 100%; }
 """
@@ -58,6 +57,7 @@ def as_html(paper: Paper, findings: Sequence[Finding]) -> str:
     return (
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        '<meta name="generator" content="derive check --html">'
         f"<title>{title}</title><style>{_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
         f"<p>{escape(summary(findings))}.</p>\n"
         f"<table><tr><th>claim</th><th>description</th><th>verdict</th></tr>\n{rows}</table>\n"
@@ -75,17 +75,11 @@ def _verdict(finding: Finding, tag: str) -> str:
 
 def _section(number: int, finding: Finding) -> str:
     claim, repair = finding.claim, finding.repair
-    corrected_text = corrected(finding)
     entries = [
-        ("printed", _typeset(claim.latex) if claim.latex else ""),
-        ("understood" if claim.latex else "printed", _code(printed(claim))),
+        ("printed", _typeset(claim.latex) if claim.latex else _equation(claim, printed(claim))),
+        ("understood", _code(printed(claim)) if claim.latex else ""),
         ("units", escape(claim.units)),
-        (
-            "corrected",
-            _typeset(as_displayed(repair)) + _code(corrected_text)
-            if repair and corrected_text
-            else "",
-        ),
+        ("corrected", _equation(repair, corrected(finding) or "") if repair else ""),
         ("ratio of sides", escape(finding.diagnosis)),
         ("evidence", _lines(lines_of(evidence(finding)))),
         ("consequence", _lines(finding.claim.consequences)),
@@ -104,6 +98,12 @@ def _lines(lines: Sequence[str]) -> str:
     return "<br>".join(map(escape, lines))
 
 
+def _equation(equation: Claim | Repair, text: str) -> str:
+    """Return an equation as MathML, and below it as text, which keeps its form."""
+    is_read = isinstance(equation, Repair) or not equation.unchecked
+    return (_typeset(as_displayed(equation)) if text and is_read else "") + _code(text)
+
+
 def _code(text: str) -> str:
     return f"<code>{escape(text)}</code>" if text else ""
 
@@ -111,20 +111,17 @@ def _code(text: str) -> str:
 def _typeset(latex: str) -> str:
     """Return LaTeX as MathML, or as code if it cannot be typeset."""
     plain = " ".join(_FOR_THE_EYE.sub(" ", latex).split())
-    if find_spec("latex2mathml") is not None:
-        from latex2mathml.converter import convert
+    prepared = plain.replace(r"\mbox", r"\text").replace(r"\nicefrac", r"\frac")
+    if r"\begin" not in prepared:
+        prepared = prepared.replace("&", " ").replace(r"\\", r"\qquad ")
+    try:
+        from derive.mathml import mathml
 
-        prepared = plain.replace(r"\mbox", r"\text").replace(r"\nicefrac", r"\frac")
-        if r"\begin" not in prepared:
-            prepared = prepared.replace("&", " ").replace(r"\\", r"\qquad ")
-        try:
-            mathml = str(convert(prepared, display="block"))
-            tree = ElementTree.fromstring(mathml)
-        except Exception:  # fall back to the source text, whatever the paper contains
-            return _code(plain)
-        if all(_is_plain(each) for each in tree.iter()):
-            return mathml
-    return _code(plain)
+        formula = str(mathml(prepared))
+        tree = ElementTree.fromstring(formula)
+    except Exception:  # fall back to the source text, whatever the paper contains
+        return _code(plain)
+    return formula if all(_is_plain(each) for each in tree.iter()) else _code(plain)
 
 
 def _is_plain(element: ElementTree.Element) -> bool:

@@ -81,9 +81,19 @@ Units = Mapping[Symbol, str]
 """The units of names, where they are known; names of different units are not swapped."""
 
 
+def in_words(kind: str, what: str) -> str:
+    """Return a change, or a pair of changes, in words.
+
+    >>> in_words("sign and swap", "of b; c for a")
+    'sign of b and swap c for a'
+    """
+    kinds = kind.split(" and ")
+    return " and ".join(map(" ".join, zip(kinds, what.split("; ", len(kinds) - 1), strict=True)))
+
+
 @dataclass(frozen=True)
 class Edit:
-    """One change of an expression."""
+    """One change of an expression, or two: their kinds joined by "and", and `what` by ";"."""
 
     kind: str
     what: str

@@ -13,6 +13,7 @@ from sympy import Expr, Symbol
 
 from derive.notation import latex_of, text_of
 from derive.paper.claim import Claim, Paper, Relation, Verdict
+from derive.paper.repair import in_words
 from derive.paper.verdict import Finding, Repair
 
 _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
@@ -34,23 +35,9 @@ def latex_of_equation(equation: Claim | Repair, relation: Relation) -> str:
 
 
 def _of(expr: Expr) -> str:
-    """Return `expr` in LaTeX, with Delta_Q as a difference and g_prime with a prime."""
-    return latex_of(expr.xreplace({s: Symbol(_spelled(s.name)) for s in expr.free_symbols}))
-
-
-def _spelled(name: str) -> str:
-    """Spell a name in LaTeX.
-
-    Braces prevent SymPy from changing the spelling.  A call of a formula is kept as a call.
-    """
-    if "(" in name:
-        return rf"\mathtt{{{_plain(name)}}}"
-    stem, _, rest = name.partition("_")
-    if stem == "Delta" and rest:
-        inner, _, index = rest.partition("_")
-        letter = rf"\{inner}" if len(inner) > 1 else inner
-        return rf"{{\Delta {letter}{f'_{{{index}}}' if index else ''}}}"
-    return f"{{{stem}'}}" if rest == "prime" else name
+    """Return `expr` in LaTeX; a call of a formula, which has been given a symbol, stays a call."""
+    calls = {s: Symbol(rf"\mathtt{{{_plain(s.name)}}}") for s in expr.free_symbols if "(" in s.name}
+    return latex_of(expr.xreplace(calls))
 
 
 def as_displayed(equation: Claim | Repair) -> str:
@@ -96,7 +83,7 @@ def lines_of(text: str) -> list[str]:
 
 def _changes(repair: Repair) -> str:
     also = f", as would {' or '.join(repair.also)}" if repair.also else ""
-    return f"{repair.kind} {repair.what}{also}"
+    return in_words(repair.kind, repair.what) + also
 
 
 def _tried(tried: Counter[str]) -> str:
@@ -287,8 +274,9 @@ def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
         if finding.repair:
             lines += ["Corrected:", *_display(finding.repair, finding.repair.relation)]
         lines.append(rf"Evidence: {_plain(evidence(finding))}.")
-        if consequence := finding.claim.consequence:
-            lines.append(rf"\par Consequence: {_plain(consequence)}.")
+        if consequences := finding.claim.consequences:
+            lines.append(r"\par Consequence:")
+            lines += [rf"\par {_plain(line)}" for line in consequences]
     return "\n".join([*lines, r"\end{document}", ""])
 
 
@@ -318,7 +306,6 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
     entries = [
         ("description", [claim.says]),
         ("place", [claim.place] if claim.place != claim.name else []),
-        ("label", [claim.label] if claim.label != claim.name else []),
         ("printed", [printed(claim) or "no equation"]),
         ("compared with", [claim.against] if claim.against else []),
         ("steps", list(claim.steps)),

@@ -43,7 +43,7 @@ from derive.paper.draw import (
     variables,
 )
 from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
-from derive.paper.repair import KINDS, WHOLE, Edit, edits, plain_edits, regrouped
+from derive.paper.repair import KINDS, WHOLE, Edit, edits, in_words, plain_edits, regrouped
 from derive.paper.tending import Approach
 from derive.paper.values import Care, Undecided, Undefined, evaluated
 from derive.paper.zero import constant, vanishes, vanishes_at
@@ -473,7 +473,9 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
         for left, right, edit in fitting:
             judged = judge(claim, left, right, claim.meaning, look)
             if is_carried(claim, left, right, judged):
-                also = tuple(f"{e.kind} {e.what}" for _, _, e in fitting if e != edit)
+                others = {(one, other): e for one, other, e in fitting}
+                del others[left, right]  # changes that lead to the same equation
+                also = tuple(in_words(e.kind, e.what) for e in others.values())
                 relation = claim.relation
                 return Repair(left, right, edit.kind, edit.what, judged, relation, also), tried
     return None, tried

@@ -23,7 +23,10 @@ from derive.notation import latex_of
 from derive.proof.prove import prove_sheet
 from derive.prose import prose, unit
 from derive.symbols import QUANTITIES
-from derive.theory import stick
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from outline import EQUATIONS, outlined
 
 ROOT = Path(__file__).parents[2]
 PAGES = ("*.md", "docs/*.md", "notebooks/*.md", "notebooks/*.ipynb", "notebooks/*.svg")
@@ -108,10 +111,8 @@ def _outline() -> str:
         "h": latex_of(together(symbols.h)),
         "mid": latex_of(together(symbols.mid)),
         "w": latex_of(symbols.w),
-        "full_stick_change": latex_of(stick.full_stick_change()),
-        "stick_load": latex_of(stick.moderate(symbols.P)),
-        "stick_tilt": latex_of(stick.moderate(symbols.alpha)),
     }
+    shown |= {name: outlined(name) for name in EQUATIONS}
     for name in ("K_N", "L_N", "K_T", "L_T"):
         shown[f"unit_{name}"] = unit(sheet[f"{name}_left"].unit)
     text = (ROOT / "docs" / "site" / "theory.md").read_text()

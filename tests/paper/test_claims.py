@@ -14,8 +14,9 @@ from derive.paper.claim import Claim, Verdict
 from derive.paper.diagnosis import named
 from derive.paper.dimensions import Units
 from derive.paper.formula import Names, equation
-from derive.paper.report import summary
+from derive.paper.report import explanation, summary
 from derive.paper.verdict import Finding, Judged
+from derive.shelf import MARK
 from derive.units import parse_unit
 
 HEAD = """
@@ -276,6 +277,9 @@ def test_the_page_holds_every_claim(tmp_path: Path) -> None:
     assert "<script" not in page
     assert "&lt;script&gt;" in page
     assert page.count("<section") == 3
+    assert MARK in page  # another run may replace it
+    assert "<dt>printed</dt><dd><math" in page
+    assert "<code>P = pi*E_star*a**2/(4*R)</code>" in page
     assert "5*pi/4" in page
     assert page.count("<polyline") == 2
     assert page.rstrip().endswith("</html>")
@@ -290,6 +294,8 @@ def test_readers_see_the_number_of_an_equation_and_no_latex(
 ) -> None:
     claim = Claim(label, "eq. (8), here", "so", equation=number)
     assert claim.name == name
+    explained = str(explanation(Finding(claim, Verdict.HOLDS, Judged(Verdict.HOLDS, ""))))
+    assert claim.name == label or label not in explained
     assert claim.is_called(label) and claim.is_called(name) and not claim.is_called("(9)")
     assert claim.is_called("(8)") == claim.is_called("eq. (8)") == bool(number)
 

@@ -37,6 +37,7 @@ from derive.paper.draw import points, variables
 from derive.paper.numbers import both
 from derive.paper.quick import Unknown, approximately
 from derive.paper.repair import edits
+from derive.paper.report import evidence
 from derive.paper.values import Undecided, evaluated
 from derive.paper.verdict import check
 from derive.paper.zero import vanishes
@@ -81,6 +82,7 @@ def test_two_slips_are_found_together() -> None:
     finding = check(claim(a, b - 2 * c, meaning={a: u + 2 / v, b: u, c: v}, swaps=(c,)))
     assert finding.repair is not None
     assert finding.repair.kind == "sign and swap"
+    assert "corrected (sign of -2*c and swap 1/c for c): " in evidence(finding)
 
 
 def test_what_cannot_be_mended_fails_all_the_same() -> None:

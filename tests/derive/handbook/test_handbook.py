@@ -22,10 +22,10 @@ from derive.body import Body
 from derive.cli import main
 from derive.errors import BadPage
 from derive.handbook.curves import pictures
-from derive.handbook.mathml import mathml
 from derive.handbook.page import entry, index, page, proven
 from derive.handbook.picture import Line, svg
 from derive.manifest import MANIFEST
+from derive.mathml import mathml
 from derive.pipeline import GENERATED
 from derive.proof.verdict import Verdict
 from derive.sheet import FormulaSheet
@@ -176,9 +176,26 @@ def test_latex_that_would_show_is_refused(latex: str) -> None:
         mathml(latex)
 
 
+def test_functions_and_words_are_set_apart() -> None:
+    """By one thin space from a factor, by none from their argument or an operator."""
+    shown = re.sub(r'<math[^>]*>| width="0.1667em"', "", mathml(r"a \sin{\left(t \right)}"))
+    assert shown.startswith("<mrow><mi>a</mi><mspace /><mi>sin</mi><mrow>")
+    shown = mathml(r"- \cos_{1} \tan_{1} x + \operatorname{segment}{\left(t \right)}")
+    assert shown.count("<mspace") == 2 and "<mi>segment</mi>" in shown
+    assert mathml(r"\frac{\sin{\left(t \right)}}{2}").count("<mspace") == 0
+
+
+def test_words_are_one_identifier_and_single_letters_are_upright() -> None:
+    shown = mathml(r"L_{T,\mathrm{left}} \, \mathrm{d}x")
+    assert "<mi>T</mi><mo>&#x0002C;</mo><mi>left</mi>" in shown
+    assert '<mi mathvariant="normal">d</mi><mi>x</mi>' in shown
+
+
 def test_lines_of_equations_are_a_table() -> None:
     shown = mathml(r"\begin{aligned}a &= b \\ c &= d\end{aligned}")
     assert shown.count("<mtr>") == 2 and "&" not in re.sub(r"&#\w+;", "", shown)
+    for side in ("right", "left"):  # browsers ignore the attribute columnalign
+        assert shown.count(f"text-align: {side}") == 2
 
 
 def test_what_killed_runs_have_left_is_removed(pages: Path, tmp_path: Path) -> None:
