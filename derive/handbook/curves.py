@@ -58,7 +58,7 @@ class Pictures(NamedTuple):
 
 def pictures(sheet: FormulaSheet, body: Body) -> Pictures:
     """The pictures of one body."""
-    half, law = _drawn_at(sheet)
+    half, law = drawn_at(sheet)
     corners = _corners(sheet, law)
     with imported(body.name, body.text, body.stuck) as module:
         lines = tuple(_pressures(module, half, law, corners))
@@ -79,7 +79,7 @@ def profile(sheet: FormulaSheet) -> Markup:
     return sketch(f"profile of {sheet.geometry.name}", _profile(sheet, SKETCHED))
 
 
-def _drawn_at(sheet: FormulaSheet) -> tuple[float, dict[str, float]]:
+def drawn_at(sheet: FormulaSheet) -> tuple[float, dict[str, float]]:
     """The half-width, E_star and the parameters of the body: those of the examples in its module,
     or its OWN."""
     needed = sheet["load"].conditions
@@ -100,7 +100,7 @@ def _corners(sheet: FormulaSheet, law: dict[str, float]) -> list[float]:
 
 
 def _profile(sheet: FormulaSheet, reach: float) -> Line:
-    half, law = _drawn_at(sheet)
+    half, law = drawn_at(sheet)
     positions = np.linspace(-reach, reach, SAMPLES)
     names = [q.symbol for q in sheet.geometry.parameters]
     g = compiled([x, *names], sheet.geometry.g, modules="numpy")
