@@ -132,7 +132,7 @@ def handbook(sheets: Iterable[FormulaSheet]) -> Iterator[str]:
         "formulas with their units, conditions, proofs and LaTeX, and the generated module. "
         "`derive show --all --html` writes the same content as pages that need no website.\n"
     )
-    yield "| body | description | $g(x)$ |\n| --- | --- | --- |"
+    yield "| body | profile |\n| --- | --- |"
     names = []
     for sheet in sheets:
         geometry = sheet.geometry
@@ -140,7 +140,7 @@ def handbook(sheets: Iterable[FormulaSheet]) -> Iterator[str]:
         title = _plain(geometry.title.removesuffix("."))
         shape = latex_of(geometry.g).replace("|", r"\vert ")  # a bar would end the cell
         link = f"[{geometry.name}](handbook/{geometry.name}.md)"
-        yield f"| {link} {profile(sheet)} | {title} | ${shape}$ |"
+        yield f"| {link} {profile(sheet)} | {title}:<br>$g(x) = {shape}$ |"
     pages = "\n".join(f"handbook/{name}" for name in names)
     yield f"\n```{{toctree}}\n:hidden:\n\n{pages}\n```\n"
 
