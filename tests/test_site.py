@@ -67,6 +67,16 @@ def test_the_theory_has_a_formula_in_every_gap() -> None:
     assert "<<" not in module("pages").theory()
 
 
+@pytest.mark.parametrize(("length", "marked"), [(50, []), (51, ["formulas"])])
+def test_a_table_with_a_long_formula_is_marked(length: int, marked: list[str]) -> None:
+    """The style makes it a list on a phone."""
+    pytest.importorskip("sphinx")
+    nodes = pytest.importorskip("docutils.nodes")
+    table = nodes.table("", nodes.entry("", nodes.math("", "x" * length)))
+    module("conf")._tables(None, nodes.container("", table))
+    assert table["classes"] == marked
+
+
 DOCSTRING = """The slip zone, |K_T|/(f K_N) + O(d**2) of `edge`.
 
     d = K_T/(f*K_N)
