@@ -77,8 +77,6 @@ docs: $(STAMP)
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[docs]'
 	$(BIN)/python docs/site/pages.py build/site
 	$(BIN)/python -m sphinx -W --keep-going -q -b html build/site build/docs
-	$(BIN)/derive show --all --html --out build/docs/handbook
-	$(BIN)/python docs/site/pages.py --handbook build/docs/handbook
 
 $(STAMP): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; make PYTHON=python3.12, say")'

@@ -92,14 +92,18 @@ def handbook(bodies: Sequence[Body], limit: float) -> dict[str, str]:
     """The pages of the library with their index, by file name."""
     from derive.handbook.page import entry, index, page
 
+    made = [*zip(sheets_of(bodies, limit), bodies, strict=True)]
+    pages = {f"{body.name}.html": page(sheet, body, index=True) for sheet, body in made}
+    return pages | {"index.html": index([entry(sheet, body) for sheet, body in made])}
+
+
+def sheets_of(bodies: Sequence[Body], limit: float) -> list[FormulaSheet]:
+    """The sheets of bodies of the library, with those formulas for which the bodies have proofs."""
     with status("deriving") as update:
-        sheets = [
+        return [
             _sheet_of_body(body.name, body, limit, lambda *told: update(": ".join(told)))
             for body in bodies
         ]
-    made = [*zip(sheets, bodies, strict=True)]
-    pages = {f"{body.name}.html": page(sheet, body, index=True) for sheet, body in made}
-    return pages | {"index.html": index([entry(sheet, body) for sheet, body in made])}
 
 
 def _sheet_of_body(name: str, body: Body, limit: float, report: Report) -> FormulaSheet:

@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from derive.library import library
+from derive.cli import main
+from derive.library import library, load_geometry
 
 ROOT = Path(__file__).parents[1]
 SITE = ROOT / "docs" / "site"
@@ -40,30 +41,41 @@ def test_the_index_leads_to_every_page() -> None:
         assert (ROOT / f"{name}.md").exists(), name
 
 
-def test_the_pages_of_bodies_lead_to_the_handbook() -> None:
-    pages = module("pages")
-    bodies = pages._linked(ROOT / "docs" / "bodies.md", set())
-    for text, root in ((bodies, "../"), ("\n".join(pages.handbook()), "")):
-        for name in library():
-            assert f'href="{root}handbook/{name}.html"' in text, name
+def test_the_table_of_bodies_leads_to_their_pages() -> None:
+    text = module("pages")._linked(ROOT / "docs" / "bodies.md", set())
+    for name in library():
+        assert f"[`{name}`](../handbook/{name}.md)" in text, name
 
 
-def test_pages_of_a_handbook_lead_back(tmp_path: Path) -> None:
-    (tmp_path / "index.html").write_text("<header>\n<h1>")
-    module("pages").lead_back(tmp_path)
-    text = (tmp_path / "index.html").read_text()
-    assert text == '<header>\n<p><a href="../index.html">Documentation</a></p>\n<h1>'
-
-
-def test_the_theory_numbers_every_formula_of_its_sheets() -> None:
+def test_the_handbook_has_a_page_with_every_formula_of_a_body() -> None:
     from derive.derivation import derive_sheet
-    from derive.library import load_geometry
+    from tests.derive.handbook.test_handbook import body_of
 
     pages = module("pages")
-    text = "\n".join(pages.theory())
-    for body in pages.BODIES:
-        sheet = derive_sheet(load_geometry(body))
-        assert len(re.findall(rf"^\$\$ \({body}-", text, re.M)) == len(sheet)
+    sheet = derive_sheet(load_geometry("wedge"))
+    body = body_of(sheet, (ROOT / "generated" / "wedge.py").read_text())
+    text = "\n".join(pages.formulas(sheet, body))
+    assert len(re.findall(r"^\$\$ \(wedge-", text, re.M)) == len(sheet)
+    assert text.count("Proven: a stand-in for a proof") == len(sheet)
+    assert text.count("<figure>") == 2 and "At a corner the pressure is infinite" in text
+    assert body.text in text
+    index = "\n".join(pages.handbook([sheet]))
+    assert "[wedge](handbook/wedge.md)" in index
+    assert "\nhandbook/wedge\n" in index[index.index("{toctree}") :]
+
+
+def test_the_theory_has_a_formula_in_every_gap() -> None:
+    assert "<<" not in module("pages").theory()
+
+
+@pytest.mark.parametrize(("length", "marked"), [(50, []), (51, ["formulas"])])
+def test_a_table_with_a_long_formula_is_marked(length: int, marked: list[str]) -> None:
+    """The style makes it a list on a phone."""
+    pytest.importorskip("sphinx")
+    nodes = pytest.importorskip("docutils.nodes")
+    table = nodes.table("", nodes.entry("", nodes.math("", "x" * length)))
+    module("conf")._tables(None, nodes.container("", table))
+    assert table["classes"] == marked
 
 
 DOCSTRING = """Slip zone, |K_T|/(f K_N) + O(d**2) of `edge`.
@@ -147,10 +159,21 @@ def test_the_references_describe_all_public_names() -> None:
         assert any(f"generated.{home}.{name}" in described for home in homes), name
 
 
-def test_the_example_of_pictures_runs() -> None:
-    plt = pytest.importorskip("matplotlib.pyplot")
-    (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "pictures.md").read_text(), re.S)
-    names: dict[str, object] = {}
-    exec(code, names)  # noqa: S102  (our own text)
-    assert names["axes"] is not None
-    plt.close("all")
+def test_the_page_of_pictures_shows_one_in_every_section(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    text = (ROOT / "docs" / "pictures.md").read_text()
+    shown = module("pages").drawn(text, tmp_path)
+    files = re.findall(r"^!\[.+\]\((.+)\)$", shown, re.M)
+    assert len(files) == len(re.findall("^## ", text, re.M)) > 3
+    assert sorted(files) == sorted(path.name for path in tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", sorted(main.commands))
+def test_the_page_of_commands_names_every_option(name: str) -> None:
+    text = (ROOT / "docs" / "commands.md").read_text()
+    rows = "\n".join(re.findall(rf"^\| `derive {name}\b.*", text, re.M))
+    named = set(re.findall(r"--[a-zA-Z]+", rows))
+    options = {each for given in main.commands[name].params for each in given.opts}
+    assert rows and {each for each in options if each.startswith("--")} <= named
+    known = {each for command in main.commands.values() for p in command.params for each in p.opts}
+    assert named <= known

@@ -10,18 +10,32 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from markupsafe import Markup
+from mpmath import mpf
 
 from derive.body import Body
 from derive.codegen.function import example_of
 from derive.codegen.trial import imported
 from derive.compiled import compiled
 from derive.handbook.picture import Line, sketch, svg
+from derive.proof.points import holds
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c, x
 
 SAMPLES = 241
 CONTACTS = ((1.0, 0.0, "P"), (0.5, 0.0, "P/2"), (1.0, 0.25, "P, and a moment M = P a₀/4"))
 """The contacts that are drawn: load over P, moment over load times half-width, and label."""
+
+OWN = {
+    "power": {"k": 1.5},
+    "two_radii": {"R_2": 4.0},
+    "unequal_wedge": {"phi_2": 0.25},
+    "wedge_parabola": {"R": 8.0},
+}
+"""Parameters for which a picture shows the character of a body better than for those of the
+examples, at which the unequal wedge is symmetrical, for instance."""
+
+CLOSE = 2.0 ** -np.arange(5.0, 30.0)
+"""Distances from a corner at which the pressure is drawn, divided by the contact width."""
 
 SKETCHED = 1.5
 """The range of x in the sketch of a profile, on either side, in half-widths."""
@@ -30,21 +44,24 @@ SKETCHED = 1.5
 class Pictures(NamedTuple):
     """The pictures of one body.
 
-    labels     the labels of the pressure curves
-    drawn_at   the values of the parameters at which the pictures are drawn
+    labels      the labels of the pressure curves
+    drawn_at    the values of the parameters at which the pictures are drawn
+    has_corner  whether the body has a corner, where the pressure is infinite
     """
 
     profile: Markup
     pressure: Markup
     labels: tuple[str, ...]
     drawn_at: str
+    has_corner: bool
 
 
 def pictures(sheet: FormulaSheet, body: Body) -> Pictures:
-    """The pictures of one body, drawn at the values of the examples in the module."""
-    half, law = _drawn_at(sheet)
+    """The pictures of one body."""
+    half, law = drawn_at(sheet)
+    corners = _corners(sheet, law)
     with imported(body.name, body.text, body.stuck) as module:
-        lines = tuple(_pressures(module, half, law))
+        lines = tuple(_pressures(module, half, law, corners))
     reach = 1.1 * max(max(line.x) for line in lines)
     values = ", ".join(f"{name} = {value:g}" for name, value in law.items())
     largest = max(float(np.median(line.y)) for line in lines)
@@ -53,6 +70,7 @@ def pictures(sheet: FormulaSheet, body: Body) -> Pictures:
         svg("contact pressure p(x)", "x/a₀", "2 a₀ p/P", lines, top=4 * largest),
         tuple(line.label for line in lines),
         values,
+        bool(corners),
     )
 
 
@@ -61,15 +79,28 @@ def profile(sheet: FormulaSheet) -> Markup:
     return sketch(f"profile of {sheet.geometry.name}", _profile(sheet, SKETCHED))
 
 
-def _drawn_at(sheet: FormulaSheet) -> tuple[float, dict[str, float]]:
-    """The half-width, and E_star and the parameters of the body, in the examples of the module."""
-    point = example_of(sheet, sheet["load"].conditions)
-    own = {q.name: float(point[q.symbol]) for q in sheet.geometry.parameters}
-    return float(max(point[a], point[c])), {"E_star": float(point[E_star]), **own}
+def drawn_at(sheet: FormulaSheet) -> tuple[float, dict[str, float]]:
+    """The half-width, E_star and the parameters of the body: those of the examples in its module,
+    or its OWN."""
+    needed = sheet["load"].conditions
+    example = example_of(sheet, needed)
+    own = OWN.get(sheet.geometry.name, {})
+    changed = {q.symbol: mpf(own[q.name]) for q in sheet.geometry.parameters if q.name in own}
+    point = example | changed
+    if not holds(needed, point):  # a body of the user has this name
+        point = example
+    law = {q.name: float(point[q.symbol]) for q in sheet.geometry.parameters}
+    return float(max(point[a], point[c])), {"E_star": float(point[E_star]), **law}
+
+
+def _corners(sheet: FormulaSheet, law: dict[str, float]) -> list[float]:
+    """Positions of the corners of the body, where the pressure is infinite."""
+    kinks = [kink.position for kink in sheet.geometry.slope.kinks if kink.is_corner]
+    return [float(at.subs({s: law[str(s)] for s in at.free_symbols})) for at in kinks]
 
 
 def _profile(sheet: FormulaSheet, reach: float) -> Line:
-    half, law = _drawn_at(sheet)
+    half, law = drawn_at(sheet)
     positions = np.linspace(-reach, reach, SAMPLES)
     names = [q.symbol for q in sheet.geometry.parameters]
     g = compiled([x, *names], sheet.geometry.g, modules="numpy")
@@ -80,7 +111,9 @@ def _profile(sheet: FormulaSheet, reach: float) -> Line:
     return Line("g", positions[finite].tolist(), values[finite].tolist())
 
 
-def _pressures(module: Any, half: float, law: dict[str, float]) -> Iterator[Line]:
+def _pressures(
+    module: Any, half: float, law: dict[str, float], corners: list[float]
+) -> Iterator[Line]:
     load = float(module.load(half, half, **law))
     for part, turn, label in CONTACTS:
         state = module.contact(part * load, turn * part * load * half, **law)
@@ -89,8 +122,13 @@ def _pressures(module: Any, half: float, law: dict[str, float]) -> Iterator[Line
         angle = np.linspace(0, np.pi, SAMPLES)
         h = state.a + state.c
         positions = (state.c - state.a) / 2 - h / 2 * np.cos(angle)
+        inside = [corner for corner in corners if -state.a < corner < state.c]
+        close = [corner + h * np.r_[-CLOSE, CLOSE] for corner in inside]
+        more = np.concatenate([*close, inside])
+        positions = np.union1d(positions, more[(-state.a < more) & (more < state.c)])
         p = module.pressure(positions, state.a, state.c, **law)
         p[[0, -1]] = 0.0
-        finite = np.isfinite(p)
-        x_drawn, p_drawn = positions[finite] / half, 2 * half * p[finite] / load
+        p[np.isin(positions, inside)] = np.inf
+        known = ~np.isnan(p)
+        x_drawn, p_drawn = positions[known] / half, 2 * half * p[known] / load
         yield Line(label, x_drawn.tolist(), p_drawn.tolist())

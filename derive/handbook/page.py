@@ -87,7 +87,7 @@ def page(sheet: FormulaSheet, body: Body, index: bool = False) -> str:
             symbols=[(mathml(latex_of(q.symbol), "inline"), q) for q in symbols],
             rows=list(_rows(sheet, dict(body.proofs))),
             defined=defined,
-            pictures=pictures(sheet, body),
+            figures=figures(sheet, body),
             remark=sheet.remark,
             code=_code(body.text),
             lines=body.text.count("\n"),
@@ -95,6 +95,12 @@ def page(sheet: FormulaSheet, body: Body, index: bool = False) -> str:
             index=index,
         )
     )
+
+
+def figures(sheet: FormulaSheet, body: Body) -> Markup:
+    """The profile and the pressure of one body, with captions; figures.css contains the style."""
+    drawn = pictures(sheet, body)._asdict()
+    return Markup(_templates().get_template("figures.html").render(drawn))
 
 
 def index(entries: Sequence[Entry]) -> str:

@@ -34,7 +34,8 @@ def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float =
         return LEFT + (x - low_x) * across, HEIGHT - BOTTOM - (y - low) * up
 
     parts = [
-        f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{escape(title)}">',
+        f'<svg class="curves" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" '
+        f'aria-label="{escape(title)}">',
         f"<title>{escape(title)}</title>",
     ]
     for x in ticks(low_x, high_x):

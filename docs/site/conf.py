@@ -21,6 +21,9 @@ from docstrings import restructured
 NUMBER = re.compile(r"[~−-]?\d[\d.,e+×% −-]*(\w{1,2}|\([^()]{1,12}\))?")
 """A cell such as 7.7e-16 (2 of 9)."""
 
+LONG = 50
+"""Number of characters above which the LaTeX of a formula is too wide for a column on a phone."""
+
 project = "contact-derive"
 author = "The contact-derive contributors"
 copyright = f"{author}, MIT licence"
@@ -30,7 +33,7 @@ exclude_patterns = ["docs/site"]
 html_theme = "furo"
 html_title = project
 html_static_path = ["docs/site/style"]
-html_css_files = ["site.css"]
+html_css_files = ["figures.css", "site.css"]
 html_show_sphinx = False
 html_show_sourcelink = False
 html_copy_source = False
@@ -70,8 +73,12 @@ def _block(self: object, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
-def _numbers(app: Sphinx, doctree: nodes.document) -> None:
-    """Mark the cells of tables that contain numbers, which must not break at a hyphen."""
+def _tables(app: Sphinx, doctree: nodes.document) -> None:
+    """Mark the cells that contain numbers, which must not break at a hyphen, and the tables of long
+    formulas."""
+    for table in doctree.findall(nodes.table):
+        if any(len(formula.astext()) > LONG for formula in table.findall(nodes.math)):
+            table["classes"].append("formulas")
     for cell in doctree.findall(nodes.entry):
         if NUMBER.fullmatch(cell.astext()):
             cell["classes"].append("number")
@@ -94,6 +101,6 @@ def _called(
 def setup(app: Sphinx) -> None:
     """Render formulas as MathML, and docstrings with their sections."""
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
-    app.connect("doctree-read", _numbers)
+    app.connect("doctree-read", _tables)
     app.connect("autodoc-process-docstring", _restructured, priority=100)
     app.connect("autodoc-process-signature", _called)

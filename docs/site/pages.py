@@ -1,10 +1,8 @@
 """Prepare the input of Sphinx: run `python docs/site/pages.py DIR` in the root of the repository.
 
-With `--handbook DIR`, the pages of a handbook that was written into the website lead back to it.
-
 The pages keep their relative paths, so that their links work as they do in the repository.  Some
-pages are written here.  The theory comes from formula sheets that are proven in this run.  The
-references name the modules whose docstrings Sphinx reads.
+pages are written here: the theory, the handbook from proven formula sheets, and references, which
+name the modules whose docstrings Sphinx reads.
 """
 
 import re
@@ -17,11 +15,18 @@ from pathlib import Path
 from sympy import together
 
 from derive import symbols
+from derive.body import Body
 from derive.derivation import derive_sheet
+from derive.handbook.curves import profile
+from derive.handbook.page import figures
 from derive.library import library, load_geometry
+from derive.limit import DEFAULT
 from derive.notation import latex_of
-from derive.proof.prove import prove_sheet
+from derive.parallel import cores
+from derive.pipeline import build_all
 from derive.prose import prose, unit
+from derive.sheet import FormulaSheet
+from derive.showing import sheets_of
 from derive.symbols import QUANTITIES
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -32,10 +37,10 @@ ROOT = Path(__file__).parents[2]
 PAGES = ("*.md", "docs/*.md", "notebooks/*.md", "notebooks/*.ipynb", "notebooks/*.svg")
 ALSO = ("tests/reference/FINDINGS.md", "docs/site/style/site.css")
 SETTINGS = ("conf.py", "docstrings.py")
-BODIES = ("hertz", "wedge")
+FIGURES = ROOT / "derive" / "handbook" / "templates" / "figures.css"
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)#:]+)(#[^)]*)?\)")
-
-ROW = re.compile(r"^\| `(\w+)` \|", re.M)
+ROW = re.compile(r"^\| (`(\w+)`) \|", re.M)
+EXAMPLE = re.compile(r"^```python\n(.*?)^```\n", re.M | re.S)
 
 
 def lay_out(target: Path) -> None:
@@ -54,8 +59,17 @@ def lay_out(target: Path) -> None:
     shutil.copy(ROOT / "docs" / "site" / "index.md", target / "index.md")
     for name in SETTINGS:
         shutil.copy(ROOT / "docs" / "site" / name, target / name)
-    (target / "theory.md").write_text("\n".join(theory()))
-    (target / "handbook.md").write_text("\n".join(handbook()))
+    shutil.copy(FIGURES, target / "docs" / "site" / "style")
+    (target / "docs" / "pictures.md").write_text(
+        drawn((target / "docs" / "pictures.md").read_text(), target / "docs")
+    )
+    (target / "theory.md").write_text(theory())
+    bodies = build_all(library(), jobs=cores())
+    sheets = sheets_of(bodies, DEFAULT)
+    (target / "handbook.md").write_text("\n".join(handbook(sheets)))
+    (target / "handbook").mkdir()
+    for sheet, body in zip(sheets, bodies, strict=True):
+        (target / "handbook" / f"{body.name}.md").write_text("\n".join(formulas(sheet, body)))
     for name, write in REFERENCES.items():
         (target / f"{name}.md").write_text("\n".join(write()))
 
@@ -67,41 +81,33 @@ def _linked(path: Path, pages: set[Path]) -> str:
         return match[0] if (path.parent / match[2]).resolve() in pages else match[1]
 
     text = LINK.sub(kept, path.read_text())
-    return ROW.sub(_leading, text) if path.stem == "bodies" else text
+    return ROW.sub(r"| [\1](../handbook/\2.md) |", text) if path.stem == "bodies" else text
 
 
-def _leading(match: re.Match[str]) -> str:
-    """The first cell of a row of the table of bodies, as a link to the page of the body."""
-    return f"| {_handbook(match[1], f'<code>{match[1]}</code>', '../')} |"
+def drawn(text: str, folder: Path) -> str:
+    """A page with the pictures that its examples draw, whose files go to `folder`."""
+    from matplotlib import pyplot
+
+    from derive import plot
+
+    names: dict[str, object] = {}
+
+    def with_picture(match: re.Match[str]) -> str:
+        exec(match[1], names)  # noqa: S102  (our own text)
+        if not pyplot.get_fignums():
+            return match[0]
+        title = re.findall(r"^#+ (.+)", text[: match.start()], re.M)[-1]
+        file = re.sub(r"\W+", "-", title).lower() + ".svg"
+        plot.save(pyplot.gcf(), folder / file)
+        pyplot.close("all")
+        return f"{match[0]}\n![{title}]({file})\n"
+
+    return EXAMPLE.sub(with_picture, text)
 
 
-def theory() -> Iterator[str]:
-    """Yield the theory page: formulas of some bodies with meaning, condition, source and proof."""
-    yield _outline()
-    for name in BODIES:
-        geometry = load_geometry(name)
-        sheet = prove_sheet(derive_sheet(geometry)).demand_proven()
-        yield f"## {prose(geometry.title.removesuffix('.'))}\n"
-        yield f"$$g(x) = {latex_of(geometry.g)}$$ ({name}-profile)\n"
-        for parameter in geometry.parameters:
-            meaning = f"{prose(parameter.meaning)} [{unit(parameter.unit)}]"
-            yield f"- ${latex_of(parameter.symbol)}$: {meaning}"
-        yield ""
-        for symbol, expr in sheet.definitions.items():
-            yield f"$$\n{latex_of(symbol)} = {latex_of(expr)}\n$$\n"
-        for formula in sheet.values():
-            label = f"{name}-{formula.name}".replace("_", "-")
-            yield f"### {_capitalised(prose(formula.meaning))}\n"
-            yield f"$$\n{formula.left} = {latex_of(sheet.shown(formula.name))}\n$$ ({label})\n"
-            conditions = ", ".join(f"${latex_of(each)}$" for each in formula.conditions)
-            yield f"`{formula.name}` [{unit(formula.unit)}], valid for {conditions}.\n"
-            yield f"- Source: {_plain(formula.source)}."
-            yield f"- {_capitalised(_plain(str(formula.proof)))}.\n"
-
-
-def _outline() -> str:
-    """The first part of the theory page, with the formulas of the theory's own modules."""
-    sheet = derive_sheet(load_geometry(BODIES[0]))
+def theory() -> str:
+    """The theory page, with the formulas of the theory's own modules."""
+    sheet = derive_sheet(load_geometry("hertz"))
     rows = (
         f"| ${latex_of(q.symbol)}$ | {_plain(q.meaning)} | {unit(q.unit)} |"
         for q in QUANTITIES.values()
@@ -119,25 +125,65 @@ def _outline() -> str:
     return re.sub("<<(\\w+)>>", lambda match: shown[match[1]], text)
 
 
-def handbook() -> Iterator[str]:
-    """Yield the page that leads to the handbook, which `derive show` writes beside the website."""
+def handbook(sheets: Iterable[FormulaSheet]) -> Iterator[str]:
+    """Yield the page that leads to the pages of all bodies."""
     yield "# Handbook of bodies\n"
     yield (
-        f"{_handbook('index', 'The handbook')} has one page for each body of the library: its "
-        "profile and pressure, all formulas with their units, conditions, proofs and LaTeX, and "
-        "the generated module.\n"
+        "The handbook has one page for each body of the library: its profile and pressure, all "
+        "formulas with their units, conditions, proofs and LaTeX, and the generated module. "
+        "`derive show --all --html` writes the same content as pages that need no website.\n"
     )
-    yield "| body | description | $g(x)$ |\n| --- | --- | --- |"
-    for name in library():
-        geometry = load_geometry(name)
+    yield "| body | profile |\n| --- | --- |"
+    names = []
+    for sheet in sheets:
+        geometry = sheet.geometry
+        names.append(geometry.name)
         title = _plain(geometry.title.removesuffix("."))
-        profile = latex_of(geometry.g).replace("|", r"\vert ")  # a bar would end the cell
-        yield f"| {_handbook(name, name)} | {title} | ${profile}$ |"
+        shape = latex_of(geometry.g).replace("|", r"\vert ")  # a bar would end the cell
+        link = f"[{geometry.name}](handbook/{geometry.name}.md)"
+        yield f"| {link} {profile(sheet)} | {title}:<br>$g(x) = {shape}$ |"
+    pages = "\n".join(f"handbook/{name}" for name in names)
+    yield f"\n```{{toctree}}\n:hidden:\n\n{pages}\n```\n"
 
 
-def _handbook(page: str, words: str, root: str = "") -> str:
-    """A link to a page of the handbook, which Sphinx does not know."""
-    return f'<a href="{root}handbook/{page}.html">{words}</a>'
+def formulas(sheet: FormulaSheet, body: Body) -> Iterator[str]:
+    """Yield the page of one body: all formulas with meaning, condition, source and proof."""
+    geometry, proofs = sheet.geometry, dict(body.proofs)
+    yield f"# {_plain(geometry.name)}\n"
+    yield f"{_plain(geometry.title)}\n"
+    yield f"$$g(x) = {latex_of(geometry.g)}$$ ({body.name}-profile)\n"
+    for parameter in geometry.parameters:
+        meaning = f"{_plain(parameter.meaning)} [{unit(parameter.unit)}]"
+        yield f"- ${latex_of(parameter.symbol)}$: {meaning}"
+    yield "\n[Theory](../theory.md) defines all other symbols.\n"
+    yield f"## Pictures\n\n```{{raw}} html\n{figures(sheet, body)}\n```\n"
+    yield f"## Formulas\n\n{_plain(sheet.remark)}\n"
+    for name, formula in sheet.items():
+        label = f"{body.name}-{name}".replace("_", "-")
+        latex = f"{formula.left} = {latex_of(sheet.shown(name))}"
+        yield f"### {_capitalised(_plain(formula.meaning))}\n"
+        yield f"$$\n{latex}\n$$ ({label})\n"
+        conditions = ", ".join(f"${latex_of(each)}$" for each in formula.conditions)
+        yield f"`{name}` [{unit(formula.unit)}], valid for {conditions}.\n"
+        yield f"- Source: {_plain(formula.source)}."
+        yield f"- {_capitalised(_plain(proofs[name]))}.\n"
+        yield _folded("LaTeX", "latex", latex)
+    if sheet.definitions:
+        yield "## Abbreviations\n"
+    for symbol, expr in sheet.definitions.items():
+        yield f"$$\n{latex_of(symbol)} = {latex_of(expr)}\n$$\n"
+    yield "## The generated module\n"
+    yield (
+        f"`{body.name}.py`, {body.text.count(chr(10))} lines. The functions keep their digits at "
+        "the edges, accept arrays, and require only NumPy and numba.\n"
+    )
+    yield _folded("Show the code", "python", body.text)
+
+
+def _folded(summary: str, language: str, text: str) -> str:
+    """A block of code that is shown on demand."""
+    code = f"````{language}\n{text.strip()}\n````"
+    return f"<details><summary>{summary}</summary>\n\n{code}\n\n</details>\n"
 
 
 def _capitalised(words: str) -> str:
@@ -226,14 +272,5 @@ def _described(title: str, module: str, names: Iterable[str]) -> Iterator[str]:
         yield f"```{{eval-rst}}\n.. auto{kind}:: {module}.{name}\n```\n"
 
 
-def lead_back(folder: Path) -> None:
-    """Add a link to the website to every page of a handbook inside it."""
-    for path in folder.glob("*.html"):
-        link = '<header>\n<p><a href="../index.html">Documentation</a></p>'
-        path.write_text(path.read_text().replace("<header>", link, 1))
-
-
 if __name__ == "__main__":
-    *option, folder = sys.argv[1:]
-    task = lead_back if option == ["--handbook"] else lay_out
-    task(Path(folder))
+    lay_out(Path(sys.argv[1]))

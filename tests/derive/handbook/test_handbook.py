@@ -21,9 +21,9 @@ from derive import Geometry, derive_sheet, load_geometry, parameter, x
 from derive.body import Body
 from derive.cli import main
 from derive.errors import BadPage
-from derive.handbook.curves import pictures
+from derive.handbook.curves import OWN, drawn_at, pictures
 from derive.handbook.page import entry, index, page, proven
-from derive.handbook.picture import Line, svg
+from derive.handbook.picture import TOP, Line, svg
 from derive.manifest import MANIFEST
 from derive.mathml import mathml
 from derive.pipeline import GENERATED
@@ -135,6 +135,34 @@ def test_a_curve_is_cut_where_it_is_infinite() -> None:
     drawn = svg("t", "x", "p", [Line("p", [0.0, 1.0, 2.0], [0.0, 1e9, 0.0])], top=5.0)
     heights = [float(p.split(",")[1]) for p in re.findall(r"[\d.]+,[\d.]+", drawn)]
     assert min(heights) >= 0 and max(heights) - min(heights) > 100
+
+
+@pytest.mark.parametrize(("name", "corners"), [("wedge_parabola", 1), ("flat_sloped", 2)])
+def test_a_pressure_rises_out_of_the_picture_at_a_corner(name: str, corners: int) -> None:
+    """Each of the three curves is cut into one part more than it has corners."""
+    drawn = pictures(*made(name))
+    parts = re.findall(r'<polyline class="curve curve-\d" points="([^"]+)"', drawn.pressure)
+    assert drawn.has_corner and len(parts) == 3 * (1 + corners)
+    ends = [point.split(",")[1] for part in parts for point in (part.split()[0], part.split()[-1])]
+    assert ends.count(f"{TOP:.1f}") == 2 * 3 * corners
+
+
+@pytest.mark.parametrize("name", sorted(OWN))
+def test_a_picture_shows_what_a_body_has_of_its_own(name: str) -> None:
+    """Neither equal sides nor the parabola."""
+    sheet, _ = made(name)
+    _, law = drawn_at(sheet)
+    assert OWN[name].items() <= law.items()
+    units = {q.name: q.unit for q in sheet.geometry.parameters}
+    assert len({(unit, law[name]) for name, unit in units.items()}) == len(units)
+    assert law.get("k") != 2
+
+
+def test_a_body_of_ones_own_may_have_the_name_of_another() -> None:
+    """Here the exponent must be greater than two, so that the 1.5 of `power` is not taken."""
+    k, L = parameter("k", "exponent", unit="-"), parameter("L", "a length", unit="m")
+    sheet = derive_sheet(Geometry("power", g=Abs(x) ** (k - 1) / L ** (k - 2)))
+    assert drawn_at(sheet)[1]["k"] > 2
 
 
 # ---------------------------------------------------------------------- on disk
