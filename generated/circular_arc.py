@@ -4,8 +4,8 @@
 g(x) = R - sqrt(R**2 - x**2), from derive/geometries/circular_arc.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
-the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -58,13 +58,6 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and a < R and c < R.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{tilt(0.75, 0.5, R=1.0):.6g}"
@@ -95,13 +88,6 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and a < R and c < R.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -134,13 +120,6 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and a < R and c < R.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -176,13 +155,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     p : ndarray
         [Pa]; NaN unless a + c > 0 and a < R and c < R.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{pressure(0.5, 0.75, 0.5, E_star=1.0, R=1.0):.6g}"
@@ -217,13 +189,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and a < R and c < R.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -263,13 +228,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and a < R and c < R.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

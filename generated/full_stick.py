@@ -2,7 +2,7 @@
 """Full stick: the change in shear traction next to the edges of a contact that does not slip.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -35,13 +35,6 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     -------
     Edges
         left [Pa*sqrt(m)], right [Pa*sqrt(m)]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -79,13 +72,6 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -131,13 +117,6 @@ def stick_margin(
     -------
     Edges
         left [N/m], right [N/m]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -4,8 +4,8 @@
 g(x) = x**2/(2*R), from derive/geometries/hertz.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
-the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -64,13 +64,6 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     Contact
         a [m], c [m], alpha [rad]; NaN unless P > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, R=1.0)]
@@ -110,13 +103,6 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     Contact
         a [m], c [m], alpha as given; NaN unless P > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, R=1.0)]
@@ -152,13 +138,6 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, R=1.0):.6g}"
@@ -190,13 +169,6 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -230,13 +202,6 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -273,13 +238,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     p : ndarray
         [Pa]; NaN unless a + c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0):.6g}"
@@ -313,13 +271,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -356,13 +307,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

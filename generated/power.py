@@ -4,8 +4,8 @@
 g(x) = L**(1 - k)*Abs(x)**k/k, from derive/geometries/power.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
-the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -59,13 +59,6 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and k > 1.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, L=1.0, k=2.0):.6g}"
@@ -98,13 +91,6 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and k > 1.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -139,13 +125,6 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and k > 1.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -183,13 +162,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
     p : ndarray
         [Pa]; NaN unless a + c > 0 and k > 1.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
@@ -226,13 +198,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and k > 1.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -274,13 +239,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and k > 1.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

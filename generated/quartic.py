@@ -4,8 +4,8 @@
 g(x) = x**4/(4*L**3), from derive/geometries/quartic.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
-the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -58,13 +58,6 @@ def tilt(a: Array, c: Array, *, L: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, L=1.0):.6g}"
@@ -96,13 +89,6 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -136,13 +122,6 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -185,13 +164,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     p : ndarray
         [Pa]; NaN unless a + c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0):.6g}"
@@ -231,13 +203,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0)]
@@ -273,13 +238,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

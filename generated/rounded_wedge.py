@@ -5,8 +5,8 @@ g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), fro
     derive/geometries/rounded_wedge.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
-the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -112,13 +112,6 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and a > -b and c > -b.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{tilt(3.0, 2.0, b=1.0, phi=0.125):.6g}"
@@ -157,13 +150,6 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     P : ndarray
         [N/m]; NaN unless a + c > 0 and a > -b and c > -b.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{load(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
@@ -196,13 +182,6 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and a > -b and c > -b.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -248,13 +227,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     p : ndarray
         [Pa]; NaN unless a + c > 0 and a > -b and c > -b.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
@@ -291,13 +263,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and a > -b and c > -b.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -338,13 +303,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and a > -b and c > -b.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

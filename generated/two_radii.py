@@ -4,8 +4,8 @@
 g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geometries/two_radii.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
-the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -82,13 +82,6 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, R_1=1.0, R_2=1.0):.6g}"
@@ -126,13 +119,6 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     P : ndarray
         [N/m]; NaN unless a + c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{load(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
@@ -166,13 +152,6 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     -------
     M : ndarray
         [N]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -219,13 +198,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     p : ndarray
         [Pa]; NaN unless a + c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
@@ -263,13 +235,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -315,13 +280,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -4,8 +4,8 @@
 g(x) = Piecewise((-phi_1*x, x < 0), (phi_2*x, True)), from derive/geometries/unequal_wedge.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
-the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -65,13 +65,6 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
     Contact
         a [m], c [m], alpha [rad]; NaN unless P > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, phi_1=0.125, phi_2=0.125)]
@@ -124,13 +117,6 @@ def contact_at_tilt(
     Contact
         a [m], c [m], alpha as given; NaN unless P > 0 and alpha > -phi_2 and alpha < phi_1.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, phi_1=0.125, phi_2=0.125)]
@@ -174,13 +160,6 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a > 0 and c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, phi_1=0.125, phi_2=0.125):.6g}"
@@ -216,13 +195,6 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
     P : ndarray
         [N/m]; NaN unless a > 0 and c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{load(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125):.6g}"
@@ -255,13 +227,6 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
     -------
     M : ndarray
         [N]; NaN unless a > 0 and c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -301,13 +266,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     p : ndarray
         [Pa]; NaN unless a > 0 and c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125):.6g}"
@@ -344,13 +302,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a > 0 and c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125)]
@@ -386,13 +337,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a > 0 and c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

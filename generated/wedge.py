@@ -4,8 +4,8 @@
 g(x) = phi*Abs(x), from derive/geometries/wedge.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
-the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -64,13 +64,6 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     Contact
         a [m], c [m], alpha [rad]; NaN unless P > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, phi=0.125)]
@@ -118,13 +111,6 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     Contact
         a [m], c [m], alpha as given; NaN unless P > 0 and alpha > -phi and alpha < phi.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, phi=0.125)]
@@ -171,13 +157,6 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a > 0 and c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, phi=0.125):.6g}"
@@ -209,13 +188,6 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a > 0 and c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -249,13 +221,6 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a > 0 and c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -295,13 +260,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     p : ndarray
         [Pa]; NaN unless a > 0 and c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
@@ -338,13 +296,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a > 0 and c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, phi=0.125)]
@@ -380,13 +331,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a > 0 and c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

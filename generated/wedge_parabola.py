@@ -4,8 +4,8 @@
 g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/wedge_parabola.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
-the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
+constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -90,13 +90,6 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, R=1.0, phi=0.125):.6g}"
@@ -129,13 +122,6 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -172,13 +158,6 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -220,13 +199,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     p : ndarray
         [Pa]; NaN unless a + c > 0 and c > 0.
 
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
@@ -267,13 +239,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -324,13 +289,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and c > 0.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -22,7 +22,7 @@ from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.proof.verdict import Proof, Verdict
-from derive.runtime.body import RAISES, sentence
+from derive.runtime.body import sentence
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
 from derive.units import Dimension, dimension_of
@@ -136,7 +136,6 @@ class FunctionText:
         lines += ["", "Parameters", "----------", *self._given]
         kind, fields = self._returns
         lines += ["", "Returns", "-------", kind, *_indented(f"{fields}; {self._existence}")]
-        lines += ["", *RAISES.splitlines()]
         lines += ["", "Examples", "--------", *self._doctest]
         return f'"""{inside_quotes(chr(10).join(lines))}\n"""'
 

@@ -109,8 +109,8 @@ def _heading(sheet: FormulaSheet, source: str) -> str:
 
 SHAPES = (
     "Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN "
-    "unless the constants of material and geometry are positive and lengths are between 1e-75 and "
-    "1e75 m."
+    "unless the constants of material and geometry are positive and the contact width is between "
+    "1e-75 and 1e75 m."
 )
 
 

@@ -7,12 +7,13 @@ so that the temporary arrays of one block stay in the processor's cache.
 import math
 from collections.abc import Callable, Mapping
 from functools import wraps
-from inspect import Parameter, signature
+from inspect import Parameter, cleandoc, signature
 from typing import Any, TypeVar
 
 import numpy as np
 
 from .chunks import any_lazy, demand_array, is_lazy, over_chunks
+from .words import with_errors
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Numbers = dict[str, Any]
@@ -33,7 +34,7 @@ def elementwise(function: Function) -> Function:
     that does not exist is NaN.
 
     The decorated function raises TypeError for an argument that is not a real number, and
-    ValueError for shapes that do not broadcast.
+    ValueError for shapes that do not broadcast; its docstring then says so.
     """
     expected = signature(function)
     positive = {n for n, p in expected.parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
@@ -54,6 +55,7 @@ def elementwise(function: Function) -> Function:
             return over_chunks(call, numbers)
         return evaluated(function, numbers, kind, BLOCK)
 
+    call.__doc__ = with_errors(cleandoc(function.__doc__ or ""))
     return call  # type: ignore[return-value]
 
 

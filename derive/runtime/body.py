@@ -21,15 +21,6 @@ from .chunks import any_lazy, is_lazy, over_chunks
 
 _SHAPES = "Arguments broadcast; results are float64 of the broadcast shape."
 
-RAISES = """\
-Raises
-------
-TypeError
-    If an argument is not a real number or an array of real numbers.
-ValueError
-    If the shapes of the arguments do not broadcast."""
-"""The errors of a function whose docstring lists no others."""
-
 CASES = 65_536
 """Number of cases that are solved at once."""
 
@@ -135,9 +126,7 @@ class Body:
         if self.demands:
             text = re.sub(r"(parameters\s+are positive)", rf"\1, {self.demands}", text)
         example = words.EXAMPLES[name].format_map(self.example.words)
-        if "\nRaises\n" not in text:
-            before, notes, after = text.partition("\n\nNotes\n")
-            text = f"{before}\n\n{RAISES}{notes}{after}"
+        text = words.with_errors(text)
         if "\nNotes\n" not in text:
             text += f"\n\nNotes\n-----\n{_SHAPES}"
         return f"{text}\nDerived from {self.origin}.\n\nExamples\n--------\n{example}"

@@ -316,7 +316,7 @@ def _of_pressure(node: Any, given: Any) -> tuple[float, ...]:
 def pressure(curve: Any, x: float, a: float, c: float, own: Any) -> float:
     """The pressure at x for E* = 1; zero outside the contact, infinite only at a corner."""
     h, left, right, total = a + c, a + x, c - x, np.zeros(1)
-    if not (0 < h < math.inf and math.isfinite(x)):
+    if not 0 < h < math.inf or math.isnan(x):
         return math.nan
     if left <= 0 or right <= 0:
         return 0.0

@@ -1,7 +1,27 @@
 """Words and examples for the docstrings of the functions in cycle.py when bound to one body."""
 
+import re
+
 COMPILING = "compiling the solver of this call, once per installation: up to half a minute ..."
 """What a user reads while kernels are compiled."""
+
+RAISES = """\
+Raises
+------
+TypeError
+    If an argument is not a real number or an array of real numbers.
+ValueError
+    If the shapes of the arguments do not broadcast."""
+"""The errors of a function whose docstring lists no others."""
+
+
+def with_errors(text: str) -> str:
+    """A docstring with RAISES before its notes and examples, unless it lists errors itself."""
+    if "\nRaises\n" in text:
+        return text
+    before, *behind = re.split(r"(\n\n(?:Notes|Examples)\n)", text, maxsplit=1)
+    return "".join([before, "\n\n", RAISES, *behind])
+
 
 MEANINGS = {
     "P": "normal load per unit depth [N/m]",
