@@ -4,8 +4,6 @@ Another solution and the moderate neighbour are in tests/generated/test_turning.
 in test_cycle.py.
 """
 
-import math
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -14,7 +12,7 @@ from scipy.optimize import brentq
 from generated.runtime.inverse import contact_at_tilt
 from generated.runtime.kernels import LOOP, kernel, opened
 from generated.runtime.slip.large import large_zone
-from generated.runtime.slip.mixed import mixed_zone, zone_by_phases
+from generated.runtime.slip.mixed import mixed_zone
 
 from . import laws
 
@@ -101,29 +99,3 @@ def test_it_scales_with_lengths_and_loads():
     given = cycles(laws.wedge, 1.5, 1.25, 0.2, 1.05) * [1e-3, 1e-3, 5e-5, 5e-2]
     small = zones(laws.wedge, given, np.array([0.05]))[0, :2]
     assert_allclose(1e3 * small, there, rtol=1e-10)
-
-
-def test_random_cycles_are_all_solved():
-    """Between both neighbours there is no hole, and the zone lies inside the contact."""
-    rng = np.random.default_rng(5)
-    a, c = rng.uniform(1.02, 2.0, (2, 40))
-    sign = rng.choice([-1, 1], 40)
-    for name in ("wedge", "hertz", "flat_rounded"):
-        case = getattr(laws, name)
-        given = cycles(case, a, c, rng.uniform(0.05, 0.5, 40), sign * rng.uniform(1.0, 1.4, 40))
-        m, n, m_0, n_0, m_1, n_1 = zones(case, given).T
-        H = 8 * given[:, 2] / (np.pi * np.abs(given[:, 3]))
-        past = np.where(sign > 0, a + n_0, c + m_0) > H
-        turns = past & ~(m_1 + n_1 >= H)
-        assert np.count_nonzero(turns) > 10
-        assert np.all(np.isfinite(m) == turns)
-        assert np.all((m + n > 0)[turns] & (m < a)[turns] & (n < c)[turns])
-
-
-def test_nothing_turns_round_without_shear_or_tension():
-    law, own = laws.wedge.functions, laws.wedge.own
-    for dQ, dsigma in ((0.0, 0.2), (0.15, 0.0)):
-        zone = getattr(zone_by_phases, "py_func", zone_by_phases)(
-            law, own, np.array([1.0, 1.0, 1.0, 1.0, dQ, dsigma, F]), 1.0
-        )
-        assert all(math.isnan(end) for end in zone)
