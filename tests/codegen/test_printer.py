@@ -256,9 +256,3 @@ def test_a_refusal_says_what_is_unknown() -> None:
         NumPyPrinter().doprint(2 * zeta(x + 1))
     with pytest.raises(CannotPrint, match=r"x > 0"):
         NumPyPrinter().doprint(Piecewise((x, x > 0)))
-
-
-def test_a_text_does_not_depend_on_what_was_printed_before() -> None:
-    printer = NumPyPrinter((x,))
-    first = [printer.doprint(expr) for expr in NODES]
-    assert [printer.doprint(expr) for expr in NODES[::-1]] == first[::-1]
