@@ -7,7 +7,6 @@ NumPy to raise.
 import inspect
 import itertools
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -15,8 +14,8 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from generated import hertz, unequal_wedge, wedge
-from generated.runtime.arrays import BLOCK, elementwise, shape_of
-from generated.runtime.types import Array, Contact, Edges
+from generated.runtime.arrays import BLOCK, shape_of
+from generated.runtime.types import Contact, Edges
 
 VALUES: Mapping[str, float] = {
     **{"x": 0.25, "a": 2.0, "c": 1.5, "P": 1.0, "M": 0.125, "alpha": 0.0625, "dQ": 0.5},
@@ -146,16 +145,6 @@ def test_what_is_left_out_or_unknown_is_named(name: str) -> None:
     if constants(name):
         with pytest.raises(TypeError, match="positional"):
             FUNCTIONS[name](*values(name).values())
-
-
-def test_a_function_keeps_its_name_and_its_docstring() -> None:
-    @elementwise
-    def sum_of(a: Array, c: Array, *, R: Array) -> Array:
-        """The docstring."""
-        return (a + c) / R
-
-    assert (sum_of.__name__, sum_of.__doc__) == ("sum_of", "The docstring.")
-    assert sum_of(1, c=2, R=4) == 0.75 and np.isnan(sum_of(1, 2, R=-1))
 
 
 # ------------------------------------------------------------------ numbers and arrays
@@ -313,15 +302,6 @@ def test_results_are_the_caller_s_own(name: str, count: int) -> None:
     assert all(np.all(array == values(name)[k]) for k, array in given.items())
 
 
-def test_threads_do_not_disturb_each_other() -> None:
-    """Each of them has told NumPy to raise, and has values of its own."""
-    states = [(name, varied(name, count)) for name in FUNCTIONS for count in (9, MANY)]
-    wanted = [call(*state) for state in states]
-    with ThreadPoolExecutor(4) as pool:
-        for got, expected in zip(pool.map(lambda s: call(*s), states), wanted, strict=True):
-            same(got, expected)
-
-
 # ------------------------------------------------------------------ states that do not exist
 
 
@@ -387,20 +367,3 @@ def test_what_is_no_real_number_is_refused_by_name_and_in_short(kind: str) -> No
             with pytest.raises(TypeError, match=rf"^{argument} must be a real number") as caught:
                 call(name, values(name) | {argument: NO_NUMBERS[kind]})
             assert len(str(caught.value)) < 300
-
-
-# ------------------------------------------------------------------ pressure outside
-
-
-@pytest.mark.parametrize("name", [name for name in FUNCTIONS if name.endswith(".pressure")])
-@pytest.mark.parametrize(("a", "c"), [(1e-3, 3e-4), (1e12, 2e12)])
-def test_pressure_is_zero_at_the_edges_and_outside(name: str, a: float, c: float) -> None:
-    own = {k: v for k, v in values(name).items() if k not in "xac"}
-    own |= {"R": PARAMETER * min(a, c)} if "R" in own else {}
-    beyond = np.array([0.0, 1e-15, 1e-3, 1.0, 1e10, 1e150, 1e300, np.inf])
-    with np.errstate(over="ignore"):
-        right, left = c + beyond * c, -(a + beyond * a)
-    for x in (left, right):
-        assert_array_equal(call(name, {"x": x, "a": a, "c": c, **own})[""], 0.0)
-    for x in (np.nextafter(-a, np.inf), np.nextafter(c, -np.inf)):
-        assert call(name, {"x": x, "a": a, "c": c, **own})[""] > 0

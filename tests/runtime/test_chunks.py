@@ -81,14 +81,6 @@ def test_no_axis_no_elements_and_empty_chunks() -> None:
     assert hertz.load(da.ones(0), 1.0, E_star=1.0, R=1.0).compute().shape == (0,)
 
 
-@pytest.mark.parametrize("dtype", [np.int8, np.float32, ">f8"])
-def test_every_real_type_counts_as_float64(dtype: Any) -> None:
-    a = np.array([100, 110, 120], dtype=dtype)
-    found = wedge.load(da.from_array(a, chunks=2), 100, **LAW)
-    assert found.dtype == np.float64
-    assert_allclose(found.compute(), wedge.load(a, 100, **LAW), rtol=1e-15)
-
-
 def test_what_is_masked_or_no_constant_is_nan_where_it_is() -> None:
     a = da.ma.masked_greater(da.linspace(1, 2, 5, chunks=2), 1.6)
     found = wedge.load(a, 1.0, **LAW).compute()
