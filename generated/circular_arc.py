@@ -28,6 +28,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import documented
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -36,6 +37,7 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
+@documented
 def tilt(a: Array, c: Array, *, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -67,6 +69,7 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     return integrated(asked, a=a, c=c)
 
 
+@documented
 def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -98,6 +101,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
+@documented
 def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -130,6 +134,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
+@documented
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -164,6 +169,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return integrated(asked, x=x, a=a, c=c, E_star=E_star)
 
 
+@documented
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -199,6 +205,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
+@documented
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 

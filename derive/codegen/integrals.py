@@ -63,7 +63,7 @@ class IntegratedText(FunctionText):
         passed = (*self.function.arguments, *self.function.constants)
         given = ", ".join(f"{s}={s}" for s in passed)
         asked = f"    asked = Asked(_BODY, {self.function.name}, dict({own}))"
-        return f"{self._head}\n{asked}\n    return integrated(asked, {given})"
+        return f"@documented\n{self._head}\n{asked}\n    return integrated(asked, {given})"
 
     @property
     def _equations(self) -> Iterator[str]:

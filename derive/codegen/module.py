@@ -45,6 +45,7 @@ _HELPERS = {
     "segments": tuple(n for n, f in vars(segments).items() if f in SHARED),
     "shared": ("by_position", "shared"),
     "types": ("Array", *_KINDS),
+    "words": ("documented",),
 }
 """The names that a module can import, by their module in runtime/."""
 

@@ -7,13 +7,13 @@ so that the temporary arrays of one block stay in the processor's cache.
 import math
 from collections.abc import Callable, Mapping
 from functools import wraps
-from inspect import Parameter, cleandoc, signature
+from inspect import Parameter, signature
 from typing import Any, TypeVar
 
 import numpy as np
 
 from .chunks import any_lazy, demand_array, is_lazy, over_chunks
-from .words import with_errors
+from .words import documented
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Numbers = dict[str, Any]
@@ -55,8 +55,7 @@ def elementwise(function: Function) -> Function:
             return over_chunks(call, numbers)
         return evaluated(function, numbers, kind, BLOCK)
 
-    call.__doc__ = with_errors(cleandoc(function.__doc__ or ""))
-    return call  # type: ignore[return-value]
+    return documented(call)  # type: ignore[return-value]
 
 
 def evaluated(function: Callable[..., Any], numbers: Numbers, kind: Any, block: int) -> Any:

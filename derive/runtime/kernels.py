@@ -33,6 +33,9 @@ PATIENCE = 0.7
 """Seconds after which a line says that kernels are being compiled; loading them from disk takes
 about a hundredth of the compilation time."""
 
+_SAYS = __name__ != "derive.runtime.kernels"
+"""Whether a line says so: the commands of `derive`, which use that copy, show their own progress."""
+
 SAID: list[str] = []
 """The line, once it has been written for the solver that is being loaded."""
 
@@ -141,7 +144,7 @@ if COMPILED:
 
     def _announce() -> None:
         """Say in one line on standard error why a call takes long."""
-        if sys.stderr is not None and not SAID:
+        if _SAYS and sys.stderr is not None and not SAID:
             SAID.append(COMPILING)
             print(COMPILING, file=sys.stderr, flush=True)
 

@@ -1,6 +1,11 @@
 """Words and examples for the docstrings of the functions in cycle.py when bound to one body."""
 
 import re
+from collections.abc import Callable
+from inspect import cleandoc
+from typing import Any, TypeVar
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 COMPILING = "compiling the solver of this call, once per installation: up to half a minute ..."
 """What a user reads while kernels are compiled."""
@@ -21,6 +26,12 @@ def with_errors(text: str) -> str:
         return text
     before, *behind = re.split(r"(\n\n(?:Notes|Examples)\n)", text, maxsplit=1)
     return "".join([before, "\n\n", RAISES, *behind])
+
+
+def documented(function: Function) -> Function:
+    """The function, with its errors in its docstring."""
+    function.__doc__ = with_errors(cleandoc(function.__doc__ or ""))
+    return function
 
 
 MEANINGS = {
