@@ -3,7 +3,6 @@
 import re
 import time
 from collections.abc import Callable
-from pathlib import Path
 from types import FunctionType
 from typing import Any
 
@@ -21,9 +20,6 @@ from sympy import (
     Piecewise,
     Rational,
     Symbol,
-    atan,
-    cosh,
-    pi,
     sign,
     sqrt,
     symbols,
@@ -44,37 +40,24 @@ DEEPEST = OF_PROFILES.deepest
 
 ACCEPTED = {
     "x**2/(2*R)": x**2 / (2 * R),
-    "phi*abs(x)": phi * Abs(x),
     "5e-1*x**2/R": x**2 / (2 * R),
     "1E+2*x": 100 * x,
     "0.1*x": Rational(1, 10) * x,
     "007*x": 7 * x,
-    "1/3*x": x / 3,
     "Abs(x)**(1/3)*b**(2/3)": Abs(x) ** third * b ** (2 * third),
     "abs(x)**1.5/sqrt(R)": Abs(x) ** Rational(3, 2) / sqrt(R),
     "-x**2/R": -(x**2) / R,
-    "x**-2": x**-2,
     "x**2**3": x**8,
-    "2**-1*x": x / 2,
     "---x + +b": b - x,
-    "x - (b - R)": x - b + R,
-    "x/(b/R)": x * R / b,
-    "sqrt(x**2 + b**2)*phi": sqrt(x**2 + b**2) * phi,
-    "Max(0, x - b)**2/R": Max(0, x - b) ** 2 / R,
     "max(x, -x, b) - min(x, -x)": Max(x, -x, b) - Min(x, -x),
     "x*sign(x) + x*Heaviside(x - b)": x * sign(x) + x * Heaviside(x - b),
-    "R*cosh(x/R) - R": R * cosh(x / R) - R,
-    "x*atan(x/b)*2/pi": x * atan(x / b) * 2 / pi,
     "x0_1*x": Symbol("x0_1", positive=True) * x,
 }
 CONDITIONS = {
     "Abs(x) <= b": Abs(x) <= b,
-    "0 < x": x > 0,
     "-b < x < b": (-b < x) & (x < b),
-    "x > -b and x < b": (x > -b) & (x < b),
     "x < -b or b < x": (x < -b) | (b < x),
     "not x < b": ~(x < b),
-    "~(x < b)": ~(x < b),
     "(x < b or x > R) and x > k": ((x < b) | (x > R)) & (x > k),
 }
 ACCEPTED |= {
@@ -104,100 +87,71 @@ def test_every_function_of_the_list_is_callable_and_told() -> None:
 CODE = [
     ("__import__('os').system('touch X')", 0, "cannot be used as a name", "choose another"),
     ("eval('1')", 0, "eval is not a function", "a function of the list"),
-    ("().__class__", 1, "missing before )", "add it"),
     ("x.real", 1, "attributes", "decimal numbers"),
-    ("os.system(x)", 2, "attributes", "decimal numbers"),
     ("lambda: 0", 0, "lambda is not allowed", "leave it out"),
-    ("f'{x}'", 0, "reserved by the theory", "f0"),
     ("'x'", 0, "quotes", "leave it out"),
     ("(y := x)", 3, "an assignment", "right-hand side"),
     ("x[0]", 1, "[ ]", "( )"),
-    ("(x for x in b)", 3, "for is not allowed", "leave it out"),
-    ("{x}", 0, "{ }", "( )"),
-    ("Max(*x)", 4, "missing before *", "add it"),
-    ("Max(x, evaluate=False)", 15, "an assignment", "right-hand side"),
-    ("x; b", 1, "; is not allowed", "leave it out"),
     ("x if b else R", 2, "if is not allowed", "Piecewise"),
     ("x\\b", 1, "\\ has no meaning", "LaTeX"),
     ("x # y", 2, "a comment", "--title"),
     ("x @ b", 2, "matrices", "write *"),
-    ("...", 0, "attributes", "decimal numbers"),
 ]
 
 CHARACTERS = [
     ("x^2/R", 1, "^ does not denote a power", "write **"),
     ("x²/R", 1, "SUPERSCRIPT TWO (U+00B2)", "write **"),
     ("х**2/R", 0, "CYRILLIC SMALL LETTER HA (U+0445)", "ASCII"),
-    ("φ*x", 0, "GREEK SMALL LETTER PHI", "ASCII"),
     ("x − b", 2, "MINUS SIGN (U+2212)", "write -"),
-    ("2·x", 1, "MIDDLE DOT", "write *"),
     ("√x", 0, "SQUARE ROOT", "sqrt"),
     ("１*x", 0, "FULLWIDTH DIGIT ONE", "ASCII"),
-    ("x\u00a0+ b", 1, "NO-BREAK SPACE", "ASCII"),
     ("x\u202e + b", 1, "RIGHT-TO-LEFT OVERRIDE", "ASCII"),
     ("x\0", 1, "'\\x00' is a character without a name", "ASCII"),
     ("x\udc80", 1, "U+DC80", "ASCII"),
     ("x == b", 2, "== is not allowed", "<="),
     ("x // 2", 2, "rounds down", "write /"),
-    ("x % 2", 2, "% has no meaning", "0.05"),
-    ("x << 2", 2, "<< is not a comparison", "write <"),
     ("$x$", 0, "$ has no meaning", "LaTeX"),
 ]
 
 GRAMMAR = [
     ("", 0, "empty", "x**2/(2*R)"),
     ("2x", 1, "operator is missing", "2*x"),
-    ("2(x)", 1, "operator is missing", "2*x"),
     ("1_000*x", 1, "operator is missing", "2*x"),
     ("R(x)", 0, "R is not a function", "R*(...)"),
-    ("gamma(x)", 0, "gamma is not a function", "gamma*(...)"),
     ("Abs*x", 0, "Abs is a function", "Abs(...)"),
     ("Abs()", 4, "missing before )", "add it"),
     ("Abs(x, b)", 0, "Abs takes one argument, but 2 are given", "others"),
     (f"Max({', '.join('x' * 21)})", 0, "Max takes at most 20", "others"),
-    ("Max(x b)", 6, "operator is missing", "2*x"),
     ("x +", 3, "ends too early", "add a number"),
-    ("x + * b", 4, "missing before *", "add it"),
     ("*x", 0, "missing before *", "add it"),
     ("(x", 2, "not closed", "add )"),
     ("x)", 1, "no matching (", "add ("),
     ("2,5*x", 1, "a comma", "2.5"),
     ("|x|", 0, "|x| cannot be used", "Abs(x)"),
-    ("x ~ b", 2, "~ is not allowed", "leave it out"),
     ("and x", 0, "and is not allowed", "leave it out"),
     ("(" * 10**6 + "x" + ")" * 10**6, LONGEST, "2000001 characters", "shorten"),
     ("(" * 200 + "x" + ")" * 200, DEEPEST, "nested deeper than 30", "fewer"),
     ("x**" * 200 + "x", 3 * DEEPEST + 1, "nested deeper than 30", "fewer"),
-    ("x" * (LONGEST + 1), LONGEST, "characters", "shorten"),
 ]
 
 NAMES = [
     ("n*x", 0, "parameter 'n' is reserved by the theory", "such as n0"),
     ("x*w_1", 2, "reserved by the theory", "letters and digits"),
-    ("x*I", 2, "reserved by the theory", "such as I0"),
     ("_b*x", 0, "cannot be used as a name", "such as b0"),
     ("Geometry*x", 0, "used by the geometry file itself", "Geometry0"),
 ]
 
 MEANING = [
     ("x < b", 2, "a condition cannot be used as a value", "Piecewise"),
-    ("not x", 0, "a condition cannot be used as a value", "Piecewise"),
-    ("Abs(x < b)", 6, "a condition cannot be used as a value", "Piecewise"),
     ("(x, b)", 0, "a pair is only allowed in a Piecewise", "Piecewise"),
     ("Piecewise(x)", 10, "must be pairs", "(value, condition)"),
-    ("Piecewise((x, b))", 14, "a value cannot be used as a condition", "x < b"),
     ("Piecewise((x, x and b))", 14, "a value cannot be used as a condition", "x < b"),
     ("Piecewise((x, 1 < 2))", 16, "compares two constants", "compare x"),
     ("Piecewise((x, x > x))", 0, "is not finite", "another"),
     ("1/0", 1, "is not finite", "another"),
-    ("log(0)*x", 0, "is not finite", "another"),
     ("sqrt(-1)*x", 0, "is not real", "another"),
-    ("acos(2)*x", 0, "is not real", "another"),
     ("9**9**9**9", 4, "exponent is too large", "100"),
     ("x**101", 1, "exponent is too large", "100"),
-    ("2**(b*1e99)", 1, "exponent is too large", "100"),
-    ("(1.000001**100)**100", 9, "too large or too small", "another"),
-    ("((x + b)**100)**100", 14, "powers above 100", "another"),
     ("(x + b + R + k)**50", 15, "1000 terms", "another"),
     ("x**60*x**60", 5, "powers above 100", "another"),
     ("exp(exp(exp(9)))", 4, "too large or too small", "another"),
@@ -229,19 +183,6 @@ def test_a_bad_text_is_refused_at_its_place(text: str, column: int, why: str, re
     place = below.index("^")
     assert shown[place : place + 1].strip() in (text[column : column + 1], "?", "")
     assert len(shown) < 100 and shown.isprintable()
-
-
-def test_nothing_is_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    for code in (
-        "__import__('os').system('touch X')",
-        "open('X', 'w')",
-        'exec(\'open("X", "w")\')',
-    ):
-        for text in (code, f"x + {code}", f"Abs({code})", f"Max(x, {code})", f"x**({code})"):
-            with pytest.raises(BadText):
-                read(text)
-    assert list(tmp_path.iterdir()) == []
 
 
 # Random formulas: the same text for Python, in which numbers and conditions are SymPy's.
@@ -349,18 +290,12 @@ def test_any_text_is_read_or_refused(text: str) -> None:
 
 
 AS_PYTHON = {
-    "x*1/3": "x * 1 / 3",
     "6*2/4*x": "Rational(6 * 2, 4) * x",
     "x**(1/3)": "x**Rational(1, 3)",
-    "x**.5": "x**Rational(1, 2)",
     "2**-1*x": "Rational(2)**-1 * x",
     "-1/2*x": "Rational(-1, 2) * x",
-    "2/sqrt(3)*x": "2 / sqrt(3) * x",
     "(x+b)-(x-b)": "x + b - (x - b)",
-    "x**-k": "x**-k",
-    "x*-b": "x * -b",
     "Piecewise((0, 0 < x < b), (b, True))": "Piecewise((0, (x > 0) & (x < b)), (b, True))",
-    "Piecewise((0, not x < b))": "Piecewise((0, ~(x < b)))",
     "Piecewise((0, (x < b or x > R) and x < k))": "Piecewise((0, ((x < b) | (x > R)) & (x < k)))",
 }
 
