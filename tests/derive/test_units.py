@@ -105,10 +105,3 @@ def test_a_mismatch_says_what_was_found_and_what_is_needed() -> None:
         check(length * stress, "Pa", "the left-hand side", HELD)
     assert caught.value == DimensionMismatch("the left-hand side", "Pa m", "Pa")
     assert "check the units" in caught.value.message
-
-
-@pytest.mark.parametrize(
-    ("unit", "shown"), [("-", "1"), ("m", "m"), ("N", "Pa m**2"), ("1/Pa", "Pa**(-1)")]
-)
-def test_a_dimension_prints_as_a_product(unit: str, shown: str) -> None:
-    assert str(parse_unit(unit)) == shown
