@@ -17,7 +17,6 @@ from derive.library import load_geometry
 from derive.writing.draft import NEUTRAL, Wanted, draft
 from derive.writing.lengths import units
 from derive.writing.meaning import read
-from derive.writing.options import said
 from derive.writing.target import place, write_new
 from tests.derive.bodies import BODIES, geometry
 
@@ -72,17 +71,13 @@ FULL = OSError(28, "No space left on device")
     ("text", "given_units", "found"),
     [
         ("x**2/(2*R)", {}, {"R": "m"}),
-        ("phi*Abs(x) + x**2/R", {}, {"phi": "rad", "R": "m"}),
-        ("x**4/C", {}, {"C": "m**3"}),
         ("Abs(x)**(4/3)*C**(1/3)", {}, {"C": "1/m"}),
         ("C*Abs(x)**k", {}, {"C": "m**(1 - k)", "k": "-"}),
-        ("R*cosh(x/R) - R", {}, {"R": "m"}),
         ("b*exp(x*k)", {}, {"b": "m", "k": "1/m"}),
         ("x*sin(phi) + x*cos(psi)", {}, {"phi": "rad", "psi": "rad"}),
         ("Piecewise((x**2/R, x < b), (phi*x, True))", {}, {"R": "m", "b": "m", "phi": "rad"}),
         ("Piecewise((0, Abs(x)*phi < b), (b, True))", {}, {"phi": "rad", "b": "m"}),
         # open, and taken for lengths
-        ("x**4/(R*b**2)", {}, {"R": "m", "b": "m"}),
         ("x**2*b/(R*k)", {}, {"R": "m", "b": "m", "k": "m"}),
         # nothing agrees: refused later
         ("x + x**2/R + 1", {}, {"R": "m"}),
@@ -117,8 +112,6 @@ TEXTS = {
     "unequal_wedge": "Piecewise((-phi*x, x < 0), (psi*x, True))",
     "flat_rounded": "Piecewise((0, Abs(x) - b <= 0), ((Abs(x) - b)**2/(2*R), True))",
     "rounded_wedge": "Piecewise((x**2/(2*R), Abs(x) < b), (b*Abs(x)/R - 0.5*b**2/R, True))",
-    "parabola_quartic": "x**2/2/R + x**4/C",
-    "spline": "x**2/R + Max(0, x - b)**3/R**2",
 }
 
 
@@ -138,7 +131,6 @@ def test_a_text_makes_the_body_that_was_written_by_hand(name: str, tmp_path: Pat
 
 
 def test_the_file_is_like_those_of_the_library() -> None:
-    assert draft(Wanted("cylinder", "x**2/(2*R)", title="  ")).text == CYLINDER
     text = "Piecewise((0, abs(x) <= b), ((Abs(x)-b)**2/(2*R), True))"
     made = draft(Wanted("flat", text, title="A flat punch.", meanings={"b": "half-width"})).text
     assert made.startswith('"""A flat punch."""\n\nfrom sympy import Abs, Piecewise\n')
@@ -146,9 +138,8 @@ def test_the_file_is_like_those_of_the_library() -> None:
     assert "Piecewise((0, Abs(x) <= b), ((Abs(x) - b) ** 2 / (2 * R), True))" in made
 
 
-@pytest.mark.parametrize("g", ["max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4", "abs(x)/3"])
-def test_the_file_passes_the_linter(g: str) -> None:
-    text = draft(Wanted("assorted", g)).text
+def test_the_file_passes_the_linter() -> None:
+    text = draft(Wanted("assorted", "max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4")).text
     strict = ["--isolated", "--line-length=100", "--select=E,F,I,D1,RUF", "-"]
     done = subprocess.run(
         [find_ruff_bin(), "check", *strict], input=text, text=True, capture_output=True
@@ -191,13 +182,6 @@ def test_a_fault_of_the_reader_is_no_traceback(monkeypatch: pytest.MonkeyPatch) 
     with pytest.raises(BadProfile) as caught:
         draft(wanted)
     assert caught.value.why == "has too many terms"
-
-
-# Options
-
-
-def test_a_meaning_may_hold_an_equals_sign() -> None:
-    assert said("--meaning", ["R=radius, 1/R = 1/R1 + 1/R2"]) == {"R": "radius, 1/R = 1/R1 + 1/R2"}
 
 
 # The place
@@ -280,7 +264,7 @@ def test_the_command_writes_the_file_and_says_what_next(
 def test_the_options_are_heard(run: Callable[..., Result], tmp_path: Path) -> None:
     (tmp_path / "my bodies").mkdir()
     units_ = ("--unit", "R=m", "--unit", "phi = rad")
-    meanings = ("--meaning", "phi=slope", "--meaning", "R=radius of the apex")
+    meanings = ("--meaning", "phi=slope", "--meaning", "R=radius, 1/R = 1/R1 + 1/R2")
     words = ("--title", "Blunt.", "--out", "my bodies/blunt_1.py")
     result = run("blunt", "phi*Abs(x) + phi*x**2/R", *units_, *meanings, *words)
     assert result.exit_code == 0, result.output
@@ -288,7 +272,7 @@ def test_the_options_are_heard(run: Callable[..., Result], tmp_path: Path) -> No
     loaded = load_geometry(tmp_path / "my bodies" / "blunt_1.py")
     assert (loaded.name, loaded.description) == ("blunt", "Blunt.")
     meant = {q.name: (q.meaning, q.unit) for q in loaded.parameters}
-    assert meant == {"R": ("radius of the apex", "m"), "phi": ("slope", "rad")}
+    assert meant == {"R": ("radius, 1/R = 1/R1 + 1/R2", "m"), "phi": ("slope", "rad")}
 
 
 @pytest.mark.parametrize("text", ["-phi*Min(x, -x)", "-h0 + phi*Abs(x)", "- phi*Min(x, -x)"])
@@ -300,22 +284,8 @@ def test_a_formula_may_begin_with_a_minus(
     assert load_geometry(tmp_path / "wedge_2.py").g.has(load_geometry("wedge").parameters[0].symbol)
 
 
-def test_a_file_is_never_overwritten(run: Callable[..., Result], tmp_path: Path) -> None:
-    (tmp_path / "cylinder.py").write_text("mine")
-    for arguments in ((), ("--out", "."), ("--out", "cylinder.py")):
-        result = run("cylinder", "x**2/(2*R)", *arguments)
-        assert result.exit_code == 2
-        assert "cylinder.py already exists; nothing was written" in result.stderr
-    assert (tmp_path / "cylinder.py").read_text() == "mine"
-    assert held(tmp_path) == ["cylinder.py"]
-
-
 REFUSED = [
-    (("body", ""), "empty"),
-    (("body", "__import__('os').system('touch X')"), "cannot be used as a name"),
     (("body", "(lambda: open('X', 'w'))()"), "lambda is not allowed"),
-    (("body", "x**2/R", "--title", "t", "--unit", "R=__import__('os')"), "is not a known unit"),
-    (("body", "(" * 10**5), "characters"),
     (("body", "y**2/(2*R)"), "it does not contain x, only parameters (y, R)"),
     (("body", "x**2/R + b - b"), "cancels out"),
     (("body", "10*x**2"), "by a parameter, such as R in"),
@@ -323,7 +293,6 @@ REFUSED = [
     (("body", "x**2/R", "--unit", "b=m"), "no parameter 'b'"),
     (("body", "abs(x)", "--unit", "b=m"), "it has no parameters"),
     (("body", "x**2/R", "--unit", "R"), "NAME=TEXT"),
-    (("body", "x**2/R", "--unit", "R=  "), "NAME=TEXT"),
     (("body", "x**2/R", "--unit", "R=m**(1/0)"), "write a product of powers"),
     (("body", "x**2/R", "--unit", "R=m", "--unit", "R=m"), "a second time"),
     (("body", "x**2/R", "--out", "nowhere/"), "is not a directory"),
