@@ -121,9 +121,7 @@ def test_what_cannot_be_drawn_is_refused(history: Any, x: Any, words: str) -> No
 @pytest.mark.parametrize(
     ("time", "words"),
     [
-        *(([0.0, 1.0], "one time for each of the 6"), ("abc", "time is 'abc'; give real numbers")),
-        *((np.full(6, np.nan), "time contains NaN"), (-np.arange(6), "time must increase")),
-        ([0, 1, 2, 1, 2, 3], "time must increase, but 1 follows 2 at index 3"),
+        *(([0.0, 1.0], "one time for each of the 6"), (np.full(6, np.nan), "time contains NaN")),
         ([0, 0, 1, 2, 3, 4], "time must increase, but 0 follows 0 at index 1"),
     ],
 )
@@ -143,15 +141,9 @@ def test_instants_are_chosen_by_a_list_of_indices(at: Any) -> None:
 @pytest.mark.parametrize(
     ("body", "given", "words"),
     [
-        *((hertz, {"f": 0}, "f is 0"), (hertz, {"f": "a"}, "f is 'a'; give real numbers")),
-        *(
-            (hertz, {"f": np.nan}, "f is nan"),
-            (hertz, {"E_star": [1e9, 2e9]}, "E_star is an array"),
-        ),
-        (hertz, {"f": np.array([0.5, 0.4])}, r"f is an array of shape \(2,\).* one value"),
+        *((hertz, {"f": 0}, "f is 0"), (hertz, {"E_star": [1e9, 2e9]}, "E_star is an array")),
         (hertz, {"f": 0.1}, "does not fit this body, f and constants: at instant 1 and x = "),
         (hertz, {"f": 0.51}, "must equal f p where the surfaces slip; give the body, f, constants"),
-        (hertz, {"E_star": 0.9 * STEEL["E_star"]}, "at instant 1 .* must equal f p"),
         (hertz, {"R": 0.049}, "does not fit this body"),
         (wedge, {"R": None, "phi": 0.01}, "does not fit this body"),
         (flat_rounded, {"b": 2 * EDGE}, "f p is nan Pa, but .* must not exceed f p"),

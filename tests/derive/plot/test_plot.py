@@ -4,7 +4,6 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
-from importlib import import_module
 from typing import Any
 
 import matplotlib
@@ -20,7 +19,7 @@ from derive import plot
 from derive.errors import MissingLibrary
 from derive.plot import live as live_module
 from derive.plot.style import FORWARD, REVERSE
-from generated import hertz, wedge
+from generated import hertz, wedge, wedge_parabola
 from generated.runtime.types import Contact, March, Regime
 
 STEEL = {"E_star": 115e9, "R": 0.05}
@@ -95,13 +94,6 @@ def test_pressures_are_those_of_the_module() -> None:
     assert axes.get_xlabel() == "$x$  [mm]"
     assert axes.get_ylabel() == "$p$  [MPa]"
     assert words(axes.get_legend()) == ["leaning", "upright"]
-
-
-def test_ratios_are_labelled_as_ratios() -> None:
-    axes = plot.pressures(hertz, [STATE], length=plot.over(STATE.a, "a"), **STEEL)
-    assert axes.get_xlabel() == "$x/a$"
-    assert axes.get_lines()[0].get_xdata()[0] == pytest.approx(-1)
-    assert axes.get_legend() is None
 
 
 def test_the_apex_of_a_wedge_is_cut_off() -> None:
@@ -354,15 +346,9 @@ REACHED = [
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("body", "own", "share"),
-    [("wedge_parabola", {"phi": 0.02}, 0.95), ("flat_rounded", {"b": 1e-3}, 0.999)],
-)
-def test_the_live_picture_holds_all_that_the_sliders_reach(
-    body: str, own: dict[str, float], share: float
-) -> None:
-    """Less of a corner, whose peak has no height."""
-    live = plot.Live(import_module(f"generated.{body}"), LARGEST, **STEEL, **own)
+def test_the_live_picture_holds_all_that_the_sliders_reach() -> None:
+    """But for the peak of a corner, which has no height."""
+    live = plot.Live(wedge_parabola, LARGEST, phi=0.02, **STEEL)
     before = live.show(START)
     limits = live.above.axis(), live.below.axis()
     for loads in REACHED:
@@ -372,7 +358,7 @@ def test_the_live_picture_holds_all_that_the_sliders_reach(
             for x, y in (of.get_data() for of in lines):
                 inside = (left < x) & (x < right) & (low <= y) & (y <= high)
                 assert np.all(left < x) and np.all(x < right)
-                assert np.mean(inside[np.isfinite(y)]) > share
+                assert np.mean(inside[np.isfinite(y)]) > 0.95
             wide = right - left >= 60 * np.ptp(live.pressure.get_xdata())
             assert not wide or loads.P < 0.1 * LARGEST.P
         assert live.show(START) == before
@@ -431,14 +417,11 @@ REFUSED: dict[str, Callable[[], Any]] = {
     "the unit 'ft' is not known; give one of m, Pa": lambda: plot.unit(1.0, "ft"),
     "give a list of results": lambda: plot.pressures(hertz, STATE, **STEEL),
     "`states` is empty; give a list of at least one": pressures,
-    r"states\[1\] has edges that are NaN": lambda: pressures(STATE, NO_CONTACT),
     r"states\[0\] contains contacts of shape \(2,\)": lambda: pressures(SEVERAL),
     r"states\[0\] is 3.0, which is not a Contact": lambda: pressures(3.0),
     "1 labels are given for 2": lambda: pressures(STATE, STATE, labels=("one",)),
     "first has edges that are NaN": lambda: half_cycle(first=NO_CONTACT),
-    r"second contains contacts of shape \(2,\)": lambda: half_cycle(second=SEVERAL),
     r"dQ is an array of shape \(3,\)": lambda: half_cycle(dQ=np.ones(3)),
-    "dsigma is nan": lambda: half_cycle(dsigma=np.nan),
     "larger shear load as Q and sigma": lambda: shear(0.4 * DQ, 0.0, DQ, 0.0),
     "the first rise is in the regime sliding": lambda: shear(1e6, 0.0, DQ, 0.0),
     "the fall is in the regime mixed": lambda: shear(DQ, 0.0, DQ, WINDOW),
@@ -446,8 +429,6 @@ REFUSED: dict[str, Callable[[], Any]] = {
     "only one cycle can be drawn": lambda: plot.stick_slip(TWO),
     "one time for each of the 41 instants": lambda: plot.stick_slip(ONE, [0.0, 1.0]),
     r"parameter has the shape \(\); give a one-dimensional array": lambda: sweep(parameter=1.0),
-    "parameter contains NaN": lambda: sweep(parameter=[0.0, np.nan]),
-    r"dsigma has the shape \(3,\), but there are 2": lambda: sweep(dsigma=np.ones(3)),
     r"contact.a has the shape \(3,\)": lambda: sweep(contact=Contact(*np.ones((3, 3)))),
     "the kind of line 'third' is not known": lambda: plot.boundaries(
         Figure().gca(), [0.0], ONE, "third", length=plot.unit(STATE.a, "m")
@@ -487,12 +468,3 @@ def test_without_ipywidgets_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(live_module, "find_spec", lambda name: None)
     with pytest.raises(MissingLibrary, match=r"ipywidgets is not installed.*\[notebooks\]"):
         plot.sliders(hertz, LARGEST, START, **STEEL)
-
-
-def test_an_integrated_body_is_drawn_as_any_other() -> None:
-    body = import_module("generated.power")
-    law = {"E_star": 1.0, "k": 3.0, "L": 1.0}
-    state = body.contact(0.05, 0.001, **law)
-    axes = plot.pressures(body, [state], length=plot.over(1.0, "L"), **law)
-    x, p = axes.get_lines()[0].get_data()
-    assert np.trapezoid(p, x) == pytest.approx(0.05, rel=1e-3)
