@@ -34,31 +34,24 @@ def test_hertz() -> None:
     assert 1 - exact.zone.n == pytest.approx(1 - found.zone.n, rel=0.05)
 
 
-def test_the_window_opens_where_the_moderate_zone_is_wide_enough() -> None:
-    # both solutions are equal at a + n = 8 dQ/(pi dsigma), a = 1
-    def room(part: float) -> float:
-        zone = cycle(part * threshold()).half_cycle.exact(MODERATE)
-        return narrowest(part * threshold()) - 1 - zone.n
+@pytest.mark.parametrize(
+    ("kappa", "inside", "outside"), [(MODERATE, 0.933, 0.931), (LARGE, 1.091, 1.092)]
+)
+def test_at_its_ends_the_window_meets_the_other_regimes(
+    kappa: int, inside: float, outside: float
+) -> None:
+    # both solutions are equal at a + n = 8 dQ/(pi dsigma), a = 1, and at m + n = 8 dQ/(pi dsigma)
+    def beyond(part: float) -> float:
+        zone = cycle(part * threshold()).half_cycle.exact(kappa)
+        wide = 1 + zone.n if kappa == MODERATE else sum(zone)
+        return kappa * (wide - narrowest(part * threshold()))
 
-    assert room(0.931) > 0 > room(0.933)
-    assert room(window()[0]) == pytest.approx(0, abs=1e-9)
-    half = cycle(0.933 * threshold()).half_cycle
-    assert turning(half).zone == pytest.approx(half.exact(MODERATE), abs=2e-6)
+    assert beyond(outside) < 0 < beyond(inside)
+    assert beyond(window()[kappa == LARGE]) == pytest.approx(0, abs=1e-9)
+    half = cycle(inside * threshold()).half_cycle
+    assert turning(half).zone == pytest.approx(half.exact(kappa), abs=2e-6)
     with pytest.raises(NotInWindow):
-        turning(cycle(0.931 * threshold()).half_cycle)
-
-
-def test_the_window_closes_where_the_large_zone_is_wide_enough() -> None:
-    def room(part: float) -> float:
-        zone = cycle(part * threshold()).half_cycle.exact(LARGE)
-        return sum(zone) - narrowest(part * threshold())
-
-    assert room(1.091) < 0 < room(1.092)
-    assert room(window()[1]) == pytest.approx(0, abs=1e-9)
-    half = cycle(1.091 * threshold()).half_cycle
-    assert turning(half).zone == pytest.approx(half.exact(LARGE), abs=2e-6)
-    with pytest.raises(NotInWindow):
-        turning(cycle(1.092 * threshold()).half_cycle)
+        turning(cycle(outside * threshold()).half_cycle)
 
 
 def test_the_solver_ends_the_half_cycle_as_phase_three_does() -> None:
