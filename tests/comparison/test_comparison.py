@@ -7,25 +7,17 @@ from generated.runtime.types import Regime
 from tests.comparison.cases import EVERY, PAPER, Compared, F
 from tests.comparison.table import markdown, row
 
-EACH = pytest.mark.parametrize("case", EVERY, ids=lambda case: case.name)
 
-
-@pytest.mark.enough("[!c]*", "cylinder*")
+@pytest.mark.enough("5.2*", "5.3 large*", "5.5*", "two radii, slip*", "hyperbola*")
 @pytest.mark.slow
-@EACH
-def test_the_regime_is_that_of_its_name(case: Compared) -> None:
-    first, second = case.contacts
-    zone = case.module.stick_zone(first, second, *case.changes, f=F, **case.law)
+@pytest.mark.parametrize("case", EVERY, ids=lambda case: case.name)
+def test_solver_and_exact_conditions_agree(case: Compared) -> None:
+    """In the regime that is part of the cycle's name."""
+    zone = case.module.stick_zone(*case.contacts, *case.changes, f=F, **case.law)
     known = {"large": Regime.LARGE, "reverses": Regime.MIXED}
     named = [regime for words, regime in known.items() if words in case.name]
     assert zone.regime == (named or [Regime.MODERATE])[0]
     assert np.isnan(zone.m) == ("reverses" in case.name)
-
-
-@pytest.mark.enough("5.2*", "5.3 large*", "5.5*", "two radii, slip*", "hyperbola*")
-@pytest.mark.slow
-@EACH
-def test_solver_and_exact_conditions_agree(case: Compared) -> None:
     result = row(case, (12, 24, 48), (4, 8, 16))
     difference = np.abs(np.subtract(result.solver, result.exact))
     assert np.all(difference <= result.error)
