@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
-from sympy import Integral, Symbol, elliptic_k, pi, sqrt, symbols
+from sympy import Integral, Symbol, elliptic_k, symbols
 
 from derive.cli import main
 from derive.errors import BadFormula
@@ -186,12 +186,8 @@ def test_a_key_of_a_claim_with_a_value_of_another_type(key: str, tmp_path: Path)
 BAD_CLAIMS = {
     "unknown key": (CIRCLE + 'colour = "red"\n', "the key 'colour' is unknown"),
     "no equation": (CIRCLE.replace("printed", "says"), "`printed` and `latex`"),
-    "no relation": (CIRCLE.replace("A = pi", "A + pi"), "no relation"),
     "two relations": (CIRCLE.replace("pi*R", "R = 1*R"), "two relations"),
     "unknown function": (CIRCLE.replace("pi*R", "eval(R)*R"), "not a function"),
-    "attribute": (CIRCLE.replace("pi*R", "R.__class__"), "attributes"),
-    "text": (CIRCLE.replace("pi*R", "'R'"), "quotes"),
-    "large power": (CIRCLE.replace("pi*R**2", "9**9**9**9"), "too large"),
     "deep": (CIRCLE.replace("pi*R", "(" * 60 + "R"), "nested deeper"),
     "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "not a verdict"),
     "conventions": (CIRCLE + "conventions = 3\n", "not a list"),
@@ -250,13 +246,6 @@ def test_what_concerns_one_claim_leaves_the_others_judged(case: str, tmp_path: P
     assert "claims.toml" not in wrong["reason"]
 
 
-def test_powers_of_powers_end_in_time(tmp_path: Path) -> None:
-    """(r + k)**60 to the 90th is nothing to multiply out."""
-    text = HEAD.replace("[symbols]", '[symbols]\nB = "(r + k)**60"')
-    text += '[[claims]]\nlabel = "B"\nprinted = "B**90 = (B*B)**45"\n'
-    assert run(written(tmp_path, text)).exit_code == 0
-
-
 @pytest.mark.parametrize("given", ["nowhere.toml", ".", "a" * 300, "bytes.toml"])
 def test_a_file_that_is_none(given: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
@@ -295,12 +284,10 @@ B = "integral(s*a, s, 0, b)"
             {"fails", "unchecked"},
         ),
         ("integral(sqrt(1 + exp(-2000*s)) - 1, s, 1, 2) = 0", {"unchecked"}),
-        ("integral(sin(s), s, -a, a) = 0", {"numerical", "holds"}),
         ("sqrt(a**2 + 2*a*b + b**2) - a - b = 1", {"fails"}),
         ("abs(x) = x", {"fails"}),
         ("sqrt(x) < 3", {"numerical"}),  # where a side is not real nothing is said
         ("sqrt(1 - a) < 3", {"unchecked"}),  # 1 - a is negative everywhere
-        ("a <= a + b", {"numerical"}),
         ("a >= a", {"holds"}),
         ("a >= a + b", {"fails"}),
         ("a > a", {"fails"}),
@@ -324,11 +311,8 @@ def test_lost_digits_decide_nothing_and_inequalities_mean_what_they_say(
         ("integral(integral(s*xi, s, 0, xi), xi, 0, 1) = 1/8", "numerical", ""),
         ("integral(integral(s*xi, s, 0, xi), xi, 0, 1) = 1/4", "fails", ""),
         ("integral(B*xi, xi, 0, 1) = a*b**2/4", "numerical", ""),
-        ("integral(s, a, 0, 1) = a", "unchecked", "also used outside"),
-        ("B = integral(s, b, 0, 1)", "unchecked", "also used outside"),
         ("a = integral(s, B, 0, 1)", "unchecked", "also used outside"),
         ("integral(a, a, 0, 1) = 1/2", "numerical", ""),
-        ("integral(s, s, 0, 1) = s/(2*s)", "numerical", ""),
         ("V = integral(2*pi*b*h, b, 0, a)", "numerical", ""),
         ("V = integral(pi*b*h, b, 0, a)", "fails", ""),
         ("V = integral(2*pi*t*k, t, 0, a)", "numerical", ""),
@@ -361,17 +345,10 @@ A = "a"
 """
 
 
-@pytest.mark.enough("load*")
 @pytest.mark.parametrize(
     ("printed", "expected"),
     [
-        ("load(a, c) = E_star*phi*sqrt(a*c)", {"holds"}),
         ("load(A, c) = E_star*phi*sqrt(a*c)", {"holds"}),
-        pytest.param(
-            "integral(pressure(s, A, c), s, -A, c) = load(a, c)",
-            {"holds", "numerical"},
-            marks=pytest.mark.slow,
-        ),
         ("load(a, c) = 2*E_star*phi*sqrt(a*c)", {"fails"}),
     ],
 )
@@ -408,11 +385,8 @@ NAMES = Names("here", {"a": a, "c": c, "s": Symbol("s", real=True)}, {"load": 2}
 @pytest.mark.parametrize(
     ("text", "value"),
     [
-        ("a + c*2", a + 2 * c),
         ("-a**2", -(a**2)),
         ("a**-1/2", 1 / a / 2),
-        ("sqrt(a)*pi", sqrt(a) * pi),
-        ("0.5*a", a / 2),
         ("elliptic_k(a**2)", elliptic_k(a**2)),
         ("integral(s*a, s, 0, c)", Integral(NAMES.symbols["s"] * a, (NAMES.symbols["s"], 0, c))),
     ],
@@ -424,13 +398,10 @@ def test_formulas(text: str, value: object) -> None:
 @pytest.mark.parametrize(
     ("text", "column"),
     [
-        ("a + ", 4),
-        ("a c", 2),
         ("a + z", 4),
         ("load(a)", 0),
         ("sqrt(a, c)", 0),
         ("(a", 2),
-        ("a$", 1),
         ("a = c + z", 8),
     ],
 )
@@ -455,29 +426,14 @@ def latex(text: str) -> str:
     ("text", "understood"),
     [
         (r"c = a \sqrt{1 - \frac{Q}{f P}}", "c = a*sqrt(-Q/(P*f) + 1)"),
-        (r"c = a\,(1 + Q)", "c = a*(Q + 1)"),
-        (r"c = \frac{\pi E^*}{2} a", "c = E_star*pi*a/2"),
-        (r"c \le \Delta Q", "c <= dQ"),
-        (r"c = \left(1 - a\right)^{\frac{1}{3}}", "c = (1 - a)**(1/3)"),
-        (r"c \geq (\sin(a)) Q", "c >= sin(a)*Q"),
         (r"c = \sin(a) \cdot Q + \ln\frac{a}{Q}", "c = sin(a)*Q + log(a/Q)"),
         (r"c = \sin^2(\exp(a Q)) + \cos^{2} a", "c = sin(exp(a*Q))**2 + cos(a)**2"),
-        ("c = " + r"\sin a+" * 10 + "a", "c = 10*sin(a) + a"),
         (r"c = " + "a(Q)+" * 20 + "a", "c = 20*a*Q + a"),
         (r"c = a^{2}P", "c = a**2*P"),
-        (r"c = a^2(P + f)Q", "c = a**2*(P + f)*Q"),
         (r"c = \frac12 a", "c = a/2"),
-        (r"c = 3\frac{a}{2} + 3\cdot\frac12", "c = 3*a/2 + 3/2"),
-        (r"c = \frac1{2}\sqrt{a}P", "c = sqrt(a)*P/2"),
         (r"c = \sqrt aP", "c = sqrt(a)*P"),
-        (r"c = 2a\left[P - \frac{Q}{2f}\right]^{2}", "c = 2*a*(P - Q/(2*f))**2"),
-        (
-            r"c = \frac{a}{2}\ln\left|\frac{a + P}{a - P}\right|",
-            "c = a/2*log(abs((a + P)/(a - P)))",
-        ),
         (r"c = |a| + |P||f|", "c = abs(a) + abs(P)*abs(f)"),
         (r"c = {a}^{2}", "c = a**2"),
-        (r"c = \sin(a)\cos(Q)", "c = sin(a)*cos(Q)"),
     ],
 )
 def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
@@ -489,38 +445,26 @@ def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
     ("text", "part", "column"),
     [
         (r"c = a \gamma", r"\gamma is neither a declared symbol", 6),
-        (r"c = a'(c)", "' is neither a declared symbol", 5),
         (r"c = a = P", "two relations", 6),
-        (r"c", "no relation", 1),
         (r"c = a -- P", "cannot be read", 7),
         (r"c = 1/2 a", "belongs to the denominator", 8),
-        (r"c = a/Q (P + f)", "belongs to the denominator", 8),
         (r"c = 1/a^{2} Q", "belongs to the denominator", 12),
         (r"c = {a + P}^2", "not printed", 4),
-        (r"c = 2{a + P}", "not printed", 5),
         (r"c = \sin{a + P}", "not printed", 8),
         (r"c = \frac123", "numerator and denominator", 9),
         (r"c = {|a}|", "not closed", 5),
         (r"c = \int_0^1 a", "the end of this integral", 4),
-        (r"c = \input{file}", r"\input is neither a declared symbol", 4),
         ("c = " + "a" * 2500, "2504 characters", 2000),
         (r"c = \sin(a) Q", "the end of the function's argument", 12),
-        (r"c = \exp(-Q) a", "the end of the function's argument", 13),
         (r"c = \log{a} Q", "the end of the function's argument", 12),
-        (r"c = \tan\frac{a}{Q} Q", "the end of the function's argument", 20),
         (r"c = \sin(a)^2", "the end of the function's argument", 11),
         (r"c = \sin^{-2} Q", "may mean its inverse", 8),
         (r"c = \sin", "no argument", 8),
         (r"c = Q^12", "one character", 6),
-        (r"c = a^\Delta Q", "one character", 6),
-        (r"c = a^Q^2", "a power of a power", 7),
         (r"c = a^{Q}^{2}", "a power of a power", 9),
         (r"c = 2 3 a", "two numbers", 6),
         (r"c = 3\frac12", "a numerical fraction", 5),
-        (r"c = a + 3\,\nicefrac{1}{2} a", "a numerical fraction", 11),
-        (r"c = \sqrt{3\tfrac{1}{2}}", "a numerical fraction", 11),
         (r"c = a^{Q", "not closed", 6),
-        (r"c \propto a", r"\propto is neither a declared symbol", 2),
     ],
 )
 def test_what_cannot_be_read_is_shown(text: str, part: str, column: int) -> None:
