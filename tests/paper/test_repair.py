@@ -49,7 +49,6 @@ def judged(folder: Path, printed: str, **more: object) -> Finding:
         ("diff(P, a) = pi*E_star*c/(2*R)", "diff(P, a) = pi*E_star*a/(2*R)"),
         ("pressure(0, c, c) = (a/c)*p_0", "pressure(0, c, c) = c*p_0/a"),
         ("p_0 = (P*E_star/(pi*R))**2", "p_0 = sqrt(E_star*P/(pi*R))"),
-        ("p_0 = (P*E_star/(pi*R))**(1/3)", "p_0 = sqrt(E_star*P/(pi*R))"),
         ("cos(t)/sin(t)*n = n*tan(t)", "n*sin(t)/cos(t) = n*tan(t)"),
         ("n*cos(t)**2 = n*(1 - cos(t)**2)", "n*cos(t)**2 = n*(1 - sin(t)**2)"),
         ("asin(t/2) + n = pi/2 - asin(t/2) + n", "n + asin(t/2) = n - acos(t/2) + pi/2"),
@@ -58,10 +57,8 @@ def judged(folder: Path, printed: str, **more: object) -> Finding:
             "(t + sqrt(pi*n))**2 = pi*n + t**2 + 2*t*sqrt(pi*n)",
         ),
         ("gamma_function(n + 1) = n*gamma_function(n/2)", "gamma(n + 1) = n*gamma(n)"),
-        ("P = pi*E_star*a**2/(5*R)", "P = pi*E_star*a**2/(4*R)"),
         ("(n + t)**2 = n**2 + 3*n*t + t**2", "(n + t)**2 = n**2 + 2*n*t + t**2"),
         ("(a + c)**2 = a**2 + 2*a*c + c", "(a + c)**2 = a**2 + 2*a*c + c**2"),
-        ("sin(2*t) = 2*sin(t)*cos(2*t)", "sin(2*t) = 2*sin(t)*cos(t)"),
         # a quotient of functions upside down
         (
             "2 + n = 2 + 2*gamma_function(n/2)/gamma_function(n/2 + 1)",
@@ -101,9 +98,7 @@ def test_another_exponent_on_a_bracket() -> None:
     assert not any("(x)" in what or what.endswith("(1/2)") for what in found.values())
 
 
-@pytest.mark.parametrize(
-    "printed", ["sqrt(a*c) = a*c", "a*c = 2*a*c", "exp(a) = 2*exp(a)", "l = sqrt(a**2)", "l = a"]
-)
+@pytest.mark.parametrize("printed", ["sqrt(a*c) = a*c", "exp(a) = 2*exp(a)", "l = a"])
 def test_a_correction_is_no_identity(tmp_path: Path, printed: str) -> None:
     """Without its root, with the constant 1/2, or with q for p_0, the right side is the left."""
     finding = judged(tmp_path, printed)
