@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from mpmath import mpf
 from sympy import Expr, Integer, Rational, Symbol
 
-from derive.symbols import a, c, h, w, x
+from derive.symbols import a, c, h
 from derive.theory.algebra import is_zero, reduced, tidy
 from tests.derive import bodies
 from tests.derive.bodies import close, sheet
@@ -18,33 +18,6 @@ b = Symbol("b", positive=True)
 
 def number(expr: Expr, **given: float) -> mpf:
     return bodies.number(CORNER.flat(expr), **{"a": 2.0, "c": 1.5, "x": 0.875} | given)
-
-
-@pytest.mark.parametrize(
-    "expr",
-    [
-        (a + c) ** 2 - a**2 - 2 * a * c - c**2,
-        *(1 / (a + c) + 1 / (a - c) - 2 * a / ((a + c) * (a - c)), KINK.w**2 - (a + b) * (c - b)),
-        *(KINK.w**3 / (a + b) - KINK.w * (c - b), 1 / KINK.w - KINK.w / ((a + b) * (c - b))),
-        *(w**2 - (a + x) * (c - x), KINK.theta * (a + c) - KINK.theta * a - KINK.theta * c),
-    ],
-    ids=str,
-)
-def test_what_is_zero_is_found_zero(expr: Expr) -> None:
-    assert is_zero(expr, CORNER)
-
-
-@pytest.mark.parametrize(
-    "expr",
-    [
-        *(Integer(1), KINK.w - KINK.theta, KINK.w**2 - (a + b) * (c + b), KINK.w**3 - KINK.w),
-        *(a * c - c * a + Rational(1, 10**30) * KINK.theta, w - KINK.w),
-        1 / (KINK.w**2 - (a + b) * c),
-    ],
-    ids=str,
-)
-def test_what_is_not_zero_is_not_found_zero(expr: Expr) -> None:
-    assert not is_zero(expr, CORNER)
 
 
 _part = st.sampled_from([a, c, b, KINK.w, KINK.theta, h, a + b, c - b, a * KINK.w, KINK.w**3])

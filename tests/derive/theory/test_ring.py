@@ -3,26 +3,12 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sympy import E, Expr, Integer, Mul, Rational, Symbol, cos, exp, expand, factor, pi, sqrt, srepr
+from sympy import E, Expr, Integer, Mul, Symbol, cos, exp, expand, factor, pi, sqrt, srepr
 
-from derive.symbols import E_star, a, c, h, s, x
+from derive.symbols import a, c, s
 from derive.theory.ring import Ring, factored, linear_parts, powers_of
 
 b, theta = Symbol("b", positive=True), Symbol("theta_1", nonnegative=True)
-
-
-@pytest.mark.parametrize(
-    "expr",
-    [
-        *(Rational(-3, 7), (x - a) * (a - c) / (2 * c + 4 * a) / 3, 1 / (a - c) + 1 / (c - a)),
-        E_star * (theta * (a + b) - pi * (c - b)) / (pi**2 * b**3),
-        *(2 * (a + c) ** 2 * (x - c) ** 3 / (3 * (a + c) ** 5), h ** Rational(3, 2) + sqrt(h) * b),
-        *((a * cos(x) + c * cos(x)) / b, (a**2 + 2 * b**2) / (4 * a**2 - 9 * b**2) - 1),
-    ],
-    ids=str,
-)
-def test_factored_as_sympy_factors(expr: Expr) -> None:
-    assert srepr(factored(expr)) == srepr(factor(expr))
 
 
 _sum = st.lists(
