@@ -104,19 +104,3 @@ def test_both_routes_together(symbolic: Proof | None, numerical: Proof | None) -
 def test_a_route_that_could_not_be_tried_is_not_named_as_a_proof() -> None:
     proof = combined(SYMBOLIC[1], Proof(Verdict.UNKNOWN, "by numbers", 3))
     assert (proof.route, proof.points) == ("by symbols", 0)
-
-
-@pytest.mark.parametrize(
-    ("proof", "text"),
-    [
-        (Proof(Verdict.PROVEN, "by parts"), "proven: by parts"),
-        (Proof(Verdict.NUMERICAL, "a", 24, 40), "numerical: a; 40 digits at 24 points"),
-        (
-            Proof(Verdict.REFUTED, "a", 1, 0, "x = 1: 1 against 2"),
-            "refuted: a; 0 digits at 1 points; at x = 1: 1 against 2",
-        ),
-    ],
-    ids=str,
-)
-def test_a_proof_in_words(proof: Proof, text: str) -> None:
-    assert str(proof) == text
