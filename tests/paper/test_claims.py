@@ -59,7 +59,6 @@ def told(folder: Path, printed: str, more: str = "", before: str = "") -> dict[s
         ("p = K*sqrt(a + x)", "as = 'x -> -a'\norder = 1.5", "numerical"),
         ("p = K*sqrt(a + x)", "as = 'x -> -a'\norder = 2.5", "fails"),
         ("sqrt(x**2 + a**2) ~ x", "as = 'x -> oo'", "numerical"),
-        ("sqrt(x**2 + a**2) ~ 2*x", "as = 'x -> oo'", "fails"),
         ("sin(b) ~ b", "as = 'b -> 0'", "numerical"),
         ("log(1/b) ~ 1/b", "as = 'b -> 0'", "fails"),
     ],
@@ -126,8 +125,6 @@ def test_a_geometry_file_that_is_none(tmp_path: Path, text: str, why: str) -> No
         ("abs(x) = x", "require = 'P > 0 and x > 0'", "numerical"),
         ("p = p_0*sqrt(1 - x**2/a**2)", "", "holds"),  # at |x| < a, where the pressure is
         ("stick_m(P, 0, b, 0) = sqrt(4*R*(P - b/(2*f))/(pi*E_star))", "", "holds"),
-        ("R > 1.9", "", "numerical"),
-        ("R > 2.5", "", "fails"),
         ("load(a, c) = P", "symbols = { c = 'a' }", "holds"),
         ("P = load(a, a)", "", "by definition"),
         ("load(a, w) = E_star*phi*sqrt(a*w)", "body = 'wedge'", "holds"),
@@ -155,16 +152,10 @@ def test_where_and_of_what_it_is_said(
     [
         ("diff(P, a) = pi*E_star*a/(2*R)", "holds"),
         ("diff(P, a, 2) = pi*E_star/(2*R)", "holds"),
-        ("diff(P, a) = pi*E_star*a/R", "fails"),
-        ("limit(sin(x)/x, x, 0) = 1", "holds"),
         ("limit(abs(x)/x, x, 0) = 1", "unchecked"),  # -1 from the left
-        ("sum(k**2, k, 1, 4) = 30", "holds"),
         ("sum(1/k**2, k, 1, oo) = pi**2/6", "holds"),
         ("gamma_function(3/2) = sqrt(pi)/2", "holds"),
-        ("Max(a, b) + Min(a, b) = a + b", "numerical"),
         ("Piecewise((x, x > 0), (-x, True)) = abs(x)", "numerical"),
-        ("Piecewise((x, x > 0), (x, True)) = abs(x)", "fails"),
-        ("integral(exp(-t), t, 0, oo) = 1", "numerical"),
         ("integral(exp(-t**2), t, -oo, oo) = sqrt(pi)", "numerical"),
         ("integral(exp(t), t, -oo, 1) = exp(1)", "numerical"),
         ("integral(t/(1 + t**2), t, -oo, oo) = 0", "unchecked"),
@@ -175,8 +166,6 @@ def test_where_and_of_what_it_is_said(
         ("pv(s, s, -a, a) = 0", "unchecked"),
         ("p_0 = 0.564*sqrt(P*E_star/R)", "numerical"),  # 1/sqrt(pi) = 0.56419
         ("p_0 = 0.565*sqrt(P*E_star/R)", "fails"),
-        ("a = 1.13*sqrt(P*R/E_star)", "numerical"),  # 2/sqrt(pi) = 1.12838
-        ("a = 1.1*sqrt(P*R/E_star)", "fails"),
     ],
 )
 def test_what_papers_say(tmp_path: Path, printed: str, verdict: str) -> None:
@@ -200,7 +189,6 @@ printed = "G = w/(1 + nu)"
         ("G = E/(2*(1 + nu))", '["(8)"]', "holds"),
         ("G = E/(1 + nu)", '["(8)"]', "fails"),
         ("E = 2*w", '["(8)", "(9)"]', "holds"),
-        ("E = w", '["(9)", "(8)"]', "fails"),
         ("E = 2*w", '["(9)"]', "fails"),
         ("E = 4*G*(1 + nu)*integral(t, t, 0, 1)", '["(8)"]', "numerical"),
     ],
@@ -223,7 +211,6 @@ def test_what_cannot_be_given(tmp_path: Path, given: str) -> None:
     [
         ("a = sqrt(P*R/(29*E_star))", "diagnosis", "the ratio left/right is sqrt(116/pi) at"),
         ("P = E_star*a/R", "diagnosis", "the ratio left/right is pi/4*a at"),
-        ("P = E_star*a**2/(5*R)", "evidence", "5*pi/4"),
         ("p_0 = P*E_star/(pi*R)", "corrected", "p_0 = sqrt(E_star*P/(pi*R))"),
     ],
 )
@@ -237,8 +224,6 @@ def test_by_what_both_sides_differ(tmp_path: Path, printed: str, key: str, part:
     ("value", "name"),
     [
         (lambda: 4 / mpmath.pi, "4/pi"),
-        (lambda: mpmath.mpf(7) / 3, "7/3"),
-        (lambda: -mpmath.sqrt(2), "-sqrt(2)"),
         (lambda: mpmath.pi**2 / 6, "pi**2/6"),
         (lambda: mpmath.mpf("1.2345678901234567890123"), ""),
     ],
