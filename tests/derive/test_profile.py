@@ -21,7 +21,6 @@ from sympy import (
     Symbol,
     Xor,
     cosh,
-    exp,
     expand,
     floor,
     log,
@@ -35,7 +34,6 @@ from sympy import (
 from derive import Geometry, parameter, x
 from derive.errors import BadProfile
 from derive.profile import Slope, breaks_of, read_slope
-from tests.derive.bodies import BODIES, VALUES, geometry
 
 R = parameter("R", "radius", unit="m")
 R1 = parameter("R1", "radius on the left", unit="m")
@@ -71,10 +69,8 @@ WAYS = [
         for g in (
             *(FLAT_ROUNDED, Piecewise((0, beyond <= 0), (beyond**2 / (2 * R), True))),
             (Max(0, x - b) ** 2 + Max(0, -x - b) ** 2) / (2 * R),
-            Heaviside(beyond) * beyond**2 / (2 * R),
             Piecewise((0, And(x > -b, x < b)), (beyond**2 / (2 * R), True)),
             Piecewise((beyond**2 / (2 * R), Not(And(x > -b, x < b))), (0, True)),
-            Piecewise(((x + b) ** 2 / R / 2, x < -b), (0, x < b), ((x - b) ** 2 / R / 2, True)),
         )
     ),
     # g' = x/R1 to the left, x/R to the right
@@ -110,22 +106,9 @@ def test_every_way_to_write_a_body_has_one_slope(g: Expr, base: Expr, kinks: lis
     assert [(k.position, k.side, k.jump) for k in found.kinks] == kinks
 
 
-@pytest.mark.parametrize("name", BODIES)
-def test_the_slope_is_the_derivative_by_hand(name: str) -> None:
-    body, found = BODIES[name], geometry(name).slope
-    numbers = {Symbol(key, positive=True): Rational(v) for key, v in VALUES.items()}
-    for place in (-3.1, -1.2, -0.7, -0.3, 0.2, 0.6, 0.9, 2.6):
-        total = found.base.subs(numbers).subs(x, Rational(place))
-        for kink in found.kinks:
-            if kink.side * (place - kink.position.subs(numbers)) > 0:
-                total += kink.jump.subs(numbers).subs(x, Rational(place))
-        assert float(total) == pytest.approx(float(body.slope(place)), rel=1e-14, abs=1e-15)
-
-
 @pytest.mark.parametrize(
     ("g", "places", "sides"),
     [
-        (phi * Abs(x - b), ["b"], [1]),
         (phi * (Abs(x - b) + Abs(x - 2 * b) + Abs(x + 3 * b)), ["-3*b", "b", "2*b"], [-1, 1, 1]),
         (Max(0, x**2 - R * R1) / R, ["-sqrt(R)*sqrt(R1)", "sqrt(R)*sqrt(R1)"], [-1, 1]),
         # where the origin lies may be open: b - b2 may be of either sign
@@ -134,7 +117,6 @@ def test_the_slope_is_the_derivative_by_hand(name: str) -> None:
         (phi * Abs(x - b) + psi * Abs(x - b - gap), ["b", "b + gap"], [1, 1]),
         # x**3 > b**3 for x > b, whatever b is: b is not compared with one metre, as at x = b - 1
         (Max(0, x**3 - b**3) / b2**2 + x**2 / R, ["b"], [1]),
-        (Max(0, -(x**3) - b**3) / b2**2 + x**2 / R, ["-b"], [-1]),
         (Max(0, x**3 - b2 * b**2) / R**2 + x**2 / R, ["b**(2/3)*b2**(1/3)"], [1]),
         (Max(0, (x - b) * (x**2 + b2**2)) / b2**2 + x**2 / R, ["b"], [1]),
         (
@@ -153,44 +135,15 @@ def test_kinks_are_found_from_left_to_right(g: Expr, places: list[str], sides: l
 
 
 @pytest.mark.parametrize(
-    ("g", "low", "high"),
-    [
-        *((phi * Abs(x), -_phi, _phi), (phi * Max(0, -x), -_phi, 0)),
-        *((x**2 / R, -oo, oo), (Max(0, x) ** 2 / R, 0, oo)),
-    ],
-    ids=str,
-)
-def test_the_slope_at_both_ends_of_the_body(g: Expr, low: Expr, high: Expr) -> None:
-    assert slope(g).limits == (low, high)
-
-
-@pytest.mark.parametrize(
-    ("g", "spans"),
-    [
-        (phi * Abs(x), [("-oo", "0"), ("0", "oo")]),
-        (FLAT_ROUNDED, [("-b", "b")]),
-        (Max(0, x) ** 2 / R, [("-oo", "0")]),
-        (x**4 / R**3, []),
-        (BODIES["rounded_wedge"].g, [("-oo", "-b"), ("b", "oo")]),
-    ],
-    ids=str,
-)
-def test_straight_pieces_are_known(g: Expr, spans: list[tuple[str, str]]) -> None:
-    found = slope(g).straight_pieces
-    assert [(str(piece.lower), str(piece.upper)) for piece in found] == spans
-
-
-@pytest.mark.parametrize(
     ("g", "modulus"),
     [
         (sqrt(x**2 - 2 * x * b + b**2) * phi, phi * Abs(x - b)),
-        (b * sqrt(x**2 / b**2 - 2 * x / b + 1), Abs(x - b)),
         (phi * sqrt(x**2 - 2 * sqrt(3) * x * b + 3 * b**2), phi * Abs(x - sqrt(3) * b)),
         (b * ((x / b) ** 2) ** (1 + psi / 2), b * (Abs(x) / b) ** (2 + psi)),
         pytest.param(
             phi * sqrt((x**2 - 2 * x * b + b**2) * (x**2 + b**2)) / b,
             phi * Abs(x - b) * sqrt(x**2 + b**2) / b,
-            marks=pytest.mark.slow,
+            marks=pytest.mark.thorough,
         ),
     ],
     ids=str,
@@ -251,15 +204,9 @@ def test_any_sum_of_convex_ramps_is_read_right(
     ("g", "domain", "limits", "cuts"),
     [
         (R * cosh(x / R), (-oo, oo), (-oo, oo), (0,)),
-        (R * exp(x / R), (-oo, oo), (0, oo), (0,)),
         (sqrt(x**2 + R**2), (-oo, oo), (-1, 1), (0,)),
         (R - sqrt(R**2 - x**2), (-R, R), (-oo, oo), (0,)),
         (Abs(x) ** Rational(3, 2) / sqrt(R), (-oo, oo), (-oo, oo), (0,)),
-        pytest.param(
-            Max(0, Abs(x) - b) ** Rational(5, 2) / R ** Rational(3, 2),
-            *((-oo, oo), (-oo, oo), (-b, b)),
-            marks=pytest.mark.slow,
-        ),
     ],
     ids=str,
 )
@@ -295,7 +242,7 @@ def test_an_exponent_must_lie_above_one() -> None:
     assert found.limits == (-oo, oo)
 
 
-@pytest.mark.enough("beside*")
+@pytest.mark.enough("beside a hyperbola")
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "beside",
