@@ -100,13 +100,7 @@ def test_a_power_has_no_value_beyond_its_break_and_needs_none(edge: Symbol) -> N
         assert mpmath.almosteq(value(point), wanted, rel_eps=mpf(10) ** -13)
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "wedge",
-        *(pytest.param(n, marks=pytest.mark.slow) for n in ("three_corners", "spline", "skew")),
-    ],
-)
+@pytest.mark.parametrize("name", ["wedge", pytest.param("spline", marks=pytest.mark.slow)])
 def test_a_formula_along_x_is_what_it_is_at_every_point(name: str) -> None:
     """At two precisions in turn: what is computed once is so once a precision."""
     of = sheet(name)
