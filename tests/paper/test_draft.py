@@ -63,7 +63,7 @@ def test_displays_are_numbered_as_latex_numbers_them(tmp_path: Path) -> None:
     assert found[0].line == 6
 
 
-def test_a_paper_is_drafted_accepted_and_judged(tmp_path: Path) -> None:
+def test_a_draft_says_what_was_read_and_judges_nothing(tmp_path: Path) -> None:
     new = tmp_path / "draft.toml"
     done = run(str(written(tmp_path, PAPER)), "--draft", str(new))
     assert done.exit_code == 0, done.output
@@ -78,18 +78,6 @@ def test_a_paper_is_drafted_accepted_and_judged(tmp_path: Path) -> None:
     told = json.loads(run(str(new), "--format", "json").stdout)
     assert {each["verdict"] for each in told} == {"unchecked"}
     assert all(each["reason"] for each in told)
-    assert run(str(new), "--accept", answers="y\n" * 20).exit_code == 0
-    text = new.read_text().replace(
-        "\n[variables]", '\nbody = "hertz"\n[variables]\na = "half-width"', 1
-    )
-    lines = [line for line in text.splitlines() if not line.startswith(("a = {", "R = "))]
-    known = ['P = "load(a, a)"' if line.startswith("P = {") else line for line in lines]
-    new.write_text("\n".join(known))
-    verdicts = {
-        c["label"]: c["verdict"] for c in json.loads(run(str(new), "--format", "json").stdout)
-    }
-    assert verdicts["law/2"] == "holds"
-    assert verdicts["law/1"] == "unchecked"
 
 
 @pytest.mark.parametrize("command", ["draft", "accept", "edge"])
