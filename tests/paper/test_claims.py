@@ -151,12 +151,9 @@ def test_where_and_of_what_it_is_said(
     ("printed", "verdict"),
     [
         ("diff(P, a) = pi*E_star*a/(2*R)", "holds"),
-        ("diff(P, a, 2) = pi*E_star/(2*R)", "holds"),
         ("limit(abs(x)/x, x, 0) = 1", "unchecked"),  # -1 from the left
         ("sum(1/k**2, k, 1, oo) = pi**2/6", "holds"),
-        ("gamma_function(3/2) = sqrt(pi)/2", "holds"),
         ("Piecewise((x, x > 0), (-x, True)) = abs(x)", "numerical"),
-        ("integral(exp(-t**2), t, -oo, oo) = sqrt(pi)", "numerical"),
         ("integral(exp(t), t, -oo, 1) = exp(1)", "numerical"),
         ("integral(t/(1 + t**2), t, -oo, oo) = 0", "unchecked"),
         ("limit(atan(x), x, -oo) = -pi/2", "holds"),
