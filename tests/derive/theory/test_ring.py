@@ -3,12 +3,19 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sympy import E, Expr, Integer, Mul, Symbol, cos, exp, expand, factor, pi, sqrt, srepr
+from sympy import E, Expr, Integer, Mul, Rational, Symbol, cos, exp, expand, factor, pi, sqrt, srepr
 
-from derive.symbols import a, c, s
+from derive.symbols import a, c, h, s, x
 from derive.theory.ring import Ring, factored, linear_parts, powers_of
 
 b, theta = Symbol("b", positive=True), Symbol("theta_1", nonnegative=True)
+
+
+@pytest.mark.parametrize(
+    "expr", [h ** Rational(3, 2) + sqrt(h) * b, (a * cos(x) + c * cos(x)) / b], ids=str
+)
+def test_roots_and_functions_are_factored_as_sympy_factors(expr: Expr) -> None:
+    assert srepr(factored(expr)) == srepr(factor(expr))
 
 
 _sum = st.lists(
