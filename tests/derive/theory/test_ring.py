@@ -12,7 +12,9 @@ b, theta = Symbol("b", positive=True), Symbol("theta_1", nonnegative=True)
 
 
 @pytest.mark.parametrize(
-    "expr", [h ** Rational(3, 2) + sqrt(h) * b, (a * cos(x) + c * cos(x)) / b], ids=str
+    "expr",
+    [h ** Rational(3, 2) + sqrt(h) * b, sqrt(h) * a + sqrt(h) * c, (a * cos(x) + c * cos(x)) / b],
+    ids=str,
 )
 def test_roots_and_functions_are_factored_as_sympy_factors(expr: Expr) -> None:
     assert srepr(factored(expr)) == srepr(factor(expr))
