@@ -269,14 +269,3 @@ def test_an_alarm_that_a_finaliser_swallows_rings_again_without_a_word() -> None
     with pytest.raises(LimitReached), within(0.05):
         Finalised()
         time.sleep(10)
-
-
-# ------------------------------------------------------------------ the sheet, and the code
-
-
-def test_the_sheet_says_which_is_evaluated() -> None:
-    printed = str(sheet("hyperbola"))
-    assert "Generated code evaluates the integrals" in printed
-    assert "q_left_1 = sqrt(a**2 + b**2)" in printed
-    assert not sheet("hyperbola").is_closed("load")
-    assert sheet("hyperbola").is_closed("load_closed")
