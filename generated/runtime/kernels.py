@@ -35,7 +35,7 @@ PATIENCE = 0.7
 about a hundredth of the compilation time."""
 
 _SAYS = __name__ != "derive.runtime.kernels"
-"""Whether a line says so: the commands of `derive`, which use that copy, show their own progress."""
+"""Whether a line says so; the commands of `derive`, which use that copy, show other progress."""
 
 SAID: list[str] = []
 """The line, once it has been written for the solver that is being loaded."""
