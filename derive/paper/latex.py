@@ -544,7 +544,7 @@ class _Side:
         elif first.text in ("(", "{", "[") or first.is_mark:
             inner = self._group()
             if first.text == "{" and any(piece.text in ("+", "-") for piece in inner):
-                why = "braces are not printed, so the print does not show the end of the argument"
+                why = "braces are not printed, so the end of the argument is unclear"
                 raise self.latex.refusal(first.column, why, "use parentheses")
             if not inner:
                 raise self.latex.refusal(head.column, f"{head.text} has no argument", "add one")
