@@ -9,7 +9,7 @@ regime is therefore that of the whole half-cycle.  Where slip reverses within it
 states at its ends are returned.
 
 Histories that cannot be solved are refused at all instants: loads out of proportion, a history that
-does not return to its first state, |Q| >= f P, and a shear load that the stick zone cannot hold.
+does not return to its first state, |Q| >= f P, and a shear load that the stick zone cannot carry.
 The last instant leads straight back to the first.  If this last step is nearly the whole way from
 one state to the other, the history is taken for a first loading and not for a cycle.
 
@@ -116,7 +116,7 @@ def _progress(loads: Array, roundings: Array) -> Array:
 def _starts(progress: Array) -> Array:
     """The instant at which each half-cycle began; NaN where the way there or back is not monotonic.
 
-    While the loads rest at a reversal, the half-cycle that led there has reached its end.
+    While the loads are constant at a reversal, the half-cycle that led there has reached its end.
     """
     count, begin = progress.size, 0
     for i in range(count):
