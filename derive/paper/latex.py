@@ -676,7 +676,7 @@ class _Side:
             _divided(part, (",", r"\andword"))[0] for part in _divided(pieces, (r"\orword",))[0]
         ]
         if len(either) > 1 and any(len(parts) > 1 for parts in either):
-            why = "some of these conditions are joined by or, and others by and or a comma"
+            why = "some of these conditions are joined by `or`, and others by `and` or a comma"
             raise self.latex.refusal(column, why, "write the condition as text")
         return " or ".join(
             " and ".join(self._condition(part, column) for part in parts if part)
