@@ -28,7 +28,7 @@ TURNING = 1e-7
 class _Given(NamedTuple):
     """Rows for a kernel, one per history.
 
-    rows      f, tol, the number of points, the loads over E*, and the points
+    rows      f, tol, the number of points, the loads divided by E*, and the points
     own       parameters of the body
     cycles    shape of the histories, without the axis of time
     instants  number of instants

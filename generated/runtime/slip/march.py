@@ -13,8 +13,8 @@ does not return to its first state, |Q| >= f P, and a shear load that the stick 
 The last instant leads straight back to the first.  If this last step is nearly the whole way from
 one state to the other, the history is taken for a first loading and not for a cycle.
 
-The loads are a matrix with rows P, M, Q, sigma over E* and a column per instant.  The contacts are
-a matrix with columns A, C, TILT, LOAD and MOMENT and a row per instant.
+The loads are a matrix with rows P, M, Q, sigma, divided by E*, and a column per instant.  The
+contacts are a matrix with columns A, C, TILT, LOAD and MOMENT and a row per instant.
 """
 
 import math
