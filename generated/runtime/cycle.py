@@ -640,8 +640,9 @@ def march(
         If an argument is not a real number or an array of real numbers, or the order is
         not a whole number.
     ValueError
-        If the shapes of the arguments do not broadcast, there are fewer than two instants, f,
-        E_star or a parameter of the body changes in time, or the order is not one of 0, 1, 2 and 3.
+        If the shapes of the arguments do not broadcast; if there are fewer than two instants; if
+        f, E_star or a parameter of the body changes with time; or if the order is not one of 0, 1,
+        2 and 3.
 
     Notes
     -----
@@ -679,7 +680,7 @@ def march(
 def _constant(value: Any, cycles: list[int], instants: int) -> Any:
     """The values of a constant, one per cycle, as a column.
 
-    Raises ValueError if the constant changes in time.
+    Raises ValueError if the constant changes with time.
     """
     held = np.broadcast_to(value, (*cycles, instants)).reshape(math.prod(cycles), instants)
     if np.any((held != held[:, :1]) & ~np.isnan(held)):

@@ -85,8 +85,8 @@ def history(
         If an argument is not a real number or an array of real numbers, x is a Dask array,
         or tol is not a number.
     ValueError
-        If the shapes of the arguments do not broadcast, there is no instant, f, E_star or a
-        parameter of the body changes in time, or tol is not positive.
+        If the shapes of the arguments do not broadcast; if there is no instant; if f, E_star or a
+        parameter of the body changes with time; or if tol is not positive.
 
     Notes
     -----
@@ -169,8 +169,8 @@ def steady_cycle(
         If an argument is not a real number or an array of real numbers, x is a Dask array,
         or tol is not a number.
     ValueError
-        If the shapes of the arguments do not broadcast, there is no instant, f, E_star or a
-        parameter of the body changes in time, or tol is not positive.
+        If the shapes of the arguments do not broadcast; if there is no instant; if f, E_star or a
+        parameter of the body changes with time; or if tol is not positive.
 
     Notes
     -----
@@ -281,7 +281,7 @@ def _numbers(
 def _given(asked: Asked, numbers: Numbers, x: Array, tol: float) -> _Given:
     """Arrange the arguments in rows.
 
-    Raises ValueError if a constant changes in time.
+    Raises ValueError if a constant changes with time.
     """
     *cycles, instants = shape_of(numbers) or (1,)
     shape = (*cycles, instants)
