@@ -246,7 +246,7 @@ def _in_words(condition: Boolean, inner: bool = False) -> str:
 
 
 def _proof_in_words(proof: Proof) -> str:
-    """The kind of a proof, the digits to which both sides agree, and the routes.
+    """The kind of a proof, the digits to which the two sides agree, and the routes.
 
     >>> _proof_in_words(Proof(Verdict.NUMERICAL, "int p dx by quadrature", 24, 36))
     'checked numerically to 36 digits at 24 points.  Route: int p dx by quadrature.'

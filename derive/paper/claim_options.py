@@ -40,7 +40,7 @@ def toward(claim: Entries, context: Context, meant: Meant) -> tuple[Expr, Expr] 
 
 
 def order(claim: Entries) -> float | None:
-    """Return the order of the difference of both sides, if it is given."""
+    """Return the order of the difference of the two sides, if it is given."""
     given = claim.data.get("order")
     if given is not None and (type(given) not in (int, float) or "as" not in claim.data):
         why = f"`order` = {given!r} is not a number, or `as` is missing"

@@ -70,7 +70,7 @@ class Quotient:
 
 
 def diagnosis(claim: Claim) -> str:
-    """Describe the ratio of both sides in words; empty if there is nothing to report."""
+    """Describe the ratio of the two sides in words; empty if there is nothing to report."""
     if claim.relation.is_ordered or claim.cases or claim.toward is not None:
         return ""
     ratio = quotient(claim)
@@ -78,7 +78,7 @@ def diagnosis(claim: Claim) -> str:
 
 
 def quotient(claim: Claim) -> Quotient | None:
-    """Return the ratio of both sides if it is a constant times powers of the variables."""
+    """Return the ratio of the two sides if it is a constant times powers of the variables."""
     with mpmath.workdps(_DIGITS):
         try:
             return _Quotients(claim).measured()
@@ -87,7 +87,7 @@ def quotient(claim: Claim) -> Quotient | None:
 
 
 class _Quotients:
-    """Measures the ratio of both sides of one claim at points where it is a real number."""
+    """Measures the ratio of the two sides of one claim at points where it is a real number."""
 
     def __init__(self, claim: Claim) -> None:
         self.claim = claim

@@ -59,12 +59,12 @@ class Pair:
 
     @property
     def digits(self) -> int:
-        """The number of digits in which both sides agree."""
+        """The number of digits in which the two sides agree."""
         return agreement(self.left, self.right)
 
     @property
     def agree(self) -> bool:
-        """Whether both sides agree to the required number of digits and to all known digits."""
+        """Whether the two sides agree to the required number of digits and to all known digits."""
         return self.digits >= max(DIGITS, min(self.known, _ALL) - _LAST)
 
 
@@ -175,7 +175,8 @@ def _sharpened(left: Expr, right: Expr, value: Numbers, pair: Pair) -> Pair:
         sharper = Pair(*now, pair.point, known)
         return _held_against_more(left, right, value, sharper) if sharper.agree else sharper
     if not pair.agree:
-        raise Undecided(f"both sides share {pair.digits} digits, and no further digits are known")
+        why = f"the two sides share {pair.digits} digits, and no further digits are known"
+        raise Undecided(why)
     return pair
 
 
@@ -193,7 +194,7 @@ def _held_against_more(left: Expr, right: Expr, value: Numbers, pair: Pair) -> P
 def _demand_grown(pair: Pair) -> None:
     if pair.digits >= DIGITS and not pair.agree:
         raise Undecided(
-            f"both sides agree to {pair.digits} digits, but their integrals seem to be known to "
+            f"the two sides agree to {pair.digits} digits, but their integrals seem to be known to "
             f"{min(pair.known, _WORKING[1])} digits"
         )
 

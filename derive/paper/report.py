@@ -139,7 +139,7 @@ def remarks(findings: Iterable[Finding]) -> list[tuple[Finding, str]]:
 
 
 def _remarks_on_failure(finding: Finding) -> list[str]:
-    """Return the corrected equation or how both sides differ, and where the claim is true."""
+    """Return the corrected equation or how the two sides differ, and where the claim is true."""
     stopped = f"the search for a correction: {finding.stopped}" if finding.stopped else ""
     told = corrected(finding) or finding.diagnosis or ("" if stopped else "no correction was found")
     return list(filter(None, (told, stopped, finding.partly)))

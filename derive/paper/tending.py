@@ -158,7 +158,7 @@ class Approach:
     def _by_order(self, row: list[tuple[mpf, Value, Value]], wanted: float) -> tuple[Verdict, str]:
         gaps = [(size, abs(left - right)) for size, left, right in row]
         if gaps[-1][1] == 0:
-            return Verdict.NUMERICAL, "the difference of both sides is zero"
+            return Verdict.NUMERICAL, "the difference of the two sides is zero"
         order = _order(gaps)
         why = f"the difference is of order {mpmath.nstr(order, 3)} (printed: {wanted:g})"
         return (Verdict.NUMERICAL if order >= wanted - _SHORT else Verdict.FAILS), why

@@ -1,6 +1,6 @@
 """Compute the verdict on a claim, with the evidence for it.
 
-The questions are asked in this order.  Do both sides agree at random points?  If so, is their
+The questions are asked in this order.  Do the two sides agree at random points?  If so, is their
 difference zero symbolically?  If not, does a sign convention that the source excludes elsewhere
 make the claim true, and which change of the printed equation makes it true?  A corrected equation
 is judged like the printed one, at the same points and by the same steps.
@@ -107,7 +107,7 @@ class Finding:
     repair      the corrected equation, if one was found
     tried       the number of corrections of each kind that were tried
     stopped     the reason why the search for a correction was not completed, if any
-    diagnosis   how both sides differ, if no correction was found
+    diagnosis   how the two sides differ, if no correction was found
     partly      where the claim is true, if it is true at some points and false at others
     """
 
@@ -386,7 +386,7 @@ class _Judging:
 
     def _proven(self) -> Judged:
         worst = min(min(pair.digits, pair.known) for pair in self.found)
-        agree = f"both sides agree to {min(worst, 2 * DIGITS)} digits {self._where()}"
+        agree = f"the two sides agree to {min(worst, 2 * DIGITS)} digits {self._where()}"
         if self.claim.reached is not None:
             agree += f"; the relation is right at {_OFF} points on either side of the bound"
         left, right = self._in_ours()
@@ -482,7 +482,7 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
 
 
 def _is_same(left: Expr, right: Expr) -> bool:
-    """Whether both sides are the same expression, as p and sqrt(p**2) are for positive p."""
+    """Whether the two sides are the same expression, as p and sqrt(p**2) are for positive p."""
     held = left.free_symbols | right.free_symbols
     table = {s: Symbol(s.name, positive=True) for s in held if s.is_real is None}
     return bool(left.xreplace(table) == right.xreplace(table))

@@ -49,7 +49,7 @@ def vanishes(expr: Expr, ranges: Mapping[Symbol, Range]) -> str:
     if _is_too_long(expr):
         return ""
     if _is_zero(expr):
-        return "the difference of both sides is zero"
+        return "the difference of the two sides is zero"
     if not is_continuous(expr, ranges):
         return ""
     for variable, span in ranges.items():

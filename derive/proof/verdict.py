@@ -66,7 +66,7 @@ class Comparison:
 
     @property
     def digits(self) -> int:
-        """Number of digits to which both values agree."""
+        """Number of digits to which the two values agree."""
         scale = max(abs(self.formula), abs(self.route))
         gap = abs(self.formula - self.route)
         if not (mpmath.isfinite(self.formula) and mpmath.isfinite(self.route)):
