@@ -257,7 +257,7 @@ def part_pressure(
 
     With L_1 and L_2 at its ends it is
 
-        (t/2) sin(f) cos(f) + end L_2 - start L_1,   L = artanh of the ratio of both tangents,
+        (t/2) sin(f) cos(f) + end L_2 - start L_1,   L = artanh of the ratio of the tangents,
 
     a sum of positive terms if x lies on the part.  If x lies outside, let d be the distance of the
     nearer end, w_1 its sine times its cosine, l the length of the part, L its value at the farther

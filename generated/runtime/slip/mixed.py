@@ -360,7 +360,7 @@ def _gain_of_phase_2(
 
 @kernel(SLIP(FRICTION, real, real))
 def _regrown(of: Any, left: float, right: float) -> Any:
-    """Slip zones of phase 3: from those of the last half-cycle, else from a first guess.
+    """Slip zones of phase 3: from those of the last half-cycle, or else from a first guess.
 
     The first guess takes the remaining friction at both edges as square roots.  At the start of
     phase 3 the left edge is driven by 2 dQ and the right one not at all; later the right one is

@@ -53,7 +53,7 @@ ROUNDING = 64 * 2.0**-52
 class Series(NamedTuple):
     """One half-cycle: loads/E*, and p = K s**(1/2) + L s**(3/2) + N s**(5/2) at each edge.
 
-    h            width of the intersection of both contacts
+    h            width of the intersection of the two contacts
     left, right  K, L, N at the edges of the contact now; left_2, right_2 at the other end
     da, dc       how much further out the edges are now than at the other end
     kappa_left   direction of slip at the left edge, times f; kappa_right at the right one
