@@ -1,6 +1,6 @@
 """The command `derive`: read the arguments, call the package, print the results.
 
-Exit status: 0 if all went well, 1 if a check failed, 2 if the input was bad, 130 after Ctrl-C, 141
+Exit status: 0 after success, 1 if a check failed, 2 if the input was invalid, 130 after Ctrl-C, 141
 if the reader of the output has closed it.  SymPy is imported only by the commands that need it, so
 that help appears at once.
 """
@@ -140,7 +140,7 @@ def _what_failed(error: OSError) -> str:
 def _demand_surroundings() -> None:
     """Check that there is a standard output and a working directory.
 
-    A closed standard error becomes the null device; otherwise, another file would get its number.
+    A closed standard error becomes the null device; the next file would otherwise take its place.
     """
     if sys.stdout is None:
         raise OSError(errno.EBADF, "the standard output is closed, so nothing can be printed")

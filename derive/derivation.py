@@ -88,7 +88,7 @@ def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaS
         remark = f"No closed form known: no rule for {without}; {_REMAIN}"
         return replace(sheet, remark=remark)
     except _SYMPY_GAVE_UP:
-        return replace(sheet, remark=f"No closed form found: SymPy gave up; {_REMAIN}")
+        return replace(sheet, remark=f"No closed form found: SymPy failed; {_REMAIN}")
     for name, expr in found.items():
         integral = sheet[name]
         sheet = sheet.plus(
@@ -292,7 +292,7 @@ def _edge_formula(
 
 
 def _rates(sheet: FormulaSheet) -> Iterator[Formula]:
-    """Rates of the loads and the tilt as one edge moves; for every body given by a flat punch."""
+    """Rates of the loads and the tilt as one edge moves: for any body, those of a flat punch."""
     conditions = contact_conditions(sheet.frame)
     source = "a moving edge adds sqrt((a + x)/(c - x)), or its mirror image, to the pressure"
     for edge, symbol, sense in ((Edge.LEFT, a, -1), (Edge.RIGHT, c, 1)):

@@ -1,4 +1,4 @@
-"""Mistakes that a user can make: one small class for each kind of mistake, with its facts.
+"""Mistakes that a user can make: one small class for each kind, which holds the details.
 
 Every message says what was given, what is wrong, what is allowed and what to do.  The command line
 prints only the message and exits with status 2.
@@ -21,7 +21,7 @@ class UserError(Exception):
         return self.message
 
     def __reduce__(self) -> tuple[type, tuple[object, ...]]:
-        """Pickle the mistake by its facts, so that it can be sent to another process."""
+        """Pickle the mistake as its details, so that it can be sent to another process."""
         return type(self), tuple(_portable(getattr(self, f.name)) for f in fields(self))  # type: ignore[arg-type]
 
     @property
@@ -32,7 +32,7 @@ class UserError(Exception):
 
 @dataclass(frozen=True)
 class _Shown:
-    """A fact that cannot be sent to another process, replaced by its text."""
+    """A detail that cannot be sent to another process, replaced by its text."""
 
     as_text: str
     as_repr: str
@@ -45,7 +45,7 @@ class _Shown:
 
 
 def _portable(fact: object) -> object:
-    """Return text and numbers, also in tuples, unchanged; replace anything else by its text."""
+    """Return text, numbers and tuples of them unchanged; replace anything else by its text."""
     if type(fact) is tuple:
         return tuple(map(_portable, fact))
     return fact if type(fact) in _PLAIN else _Shown(str(fact), repr(fact))
@@ -440,7 +440,7 @@ class InstalledPackage(UserError):
 
 @dataclass
 class MissingLibrary(UserError):
-    """A library that only a part of the package needs is not installed."""
+    """A library that only part of the package needs is not installed."""
 
     given: str
     purpose: str

@@ -107,7 +107,7 @@ def _execute(path: Path) -> "Geometry":
 
 @contextmanager
 def _interrupts_noticed() -> Iterator[Callable[[], bool]]:
-    """Tell whether Ctrl-C or SIGTERM came in the block; the file itself may raise the same."""
+    """Tell whether Ctrl-C or SIGTERM arrived in the block; a file can raise the same exceptions."""
     came: list[int] = []
     before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
     if threading.current_thread() is not threading.main_thread():

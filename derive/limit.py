@@ -73,7 +73,7 @@ def _ring(number: int, frame: FrameType | None) -> None:
 
 @contextmanager
 def _unraisable_again() -> Iterator[None]:
-    """Repeat the alarm soon if it comes in a finaliser or callback, which cannot raise."""
+    """Repeat the alarm soon if it occurs in a finaliser or callback, which cannot raise."""
     before = sys.unraisablehook
 
     def hook(what: "sys.UnraisableHookArgs") -> None:

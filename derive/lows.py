@@ -5,8 +5,8 @@ Out: places where it seems to be negative or undefined, few enough to be checked
      because double precision alone does not decide.
 
 The points lie at distances of all magnitudes from the origin, from the ends and from places where
-the arguments of functions are zero or one, since narrow features are found there.  Between the
-points, the search descends.
+the arguments of functions are zero or one, since narrow features are found there.  The search is
+refined around the lowest of them.
 """
 
 from collections.abc import Iterator, Sequence

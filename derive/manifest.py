@@ -27,7 +27,7 @@ def with_manifest(files: Mapping[str, str]) -> dict[str, str]:
 
 
 def not_written(folder: Path, edited: bool = True) -> str:
-    """Of the first entry that was not written as it is, its name and why; "" if there is none.
+    """Name the first entry that was not written in this form, and say why; "" if there is none.
 
     edited: whether that includes files that were changed later.
     """
@@ -47,7 +47,7 @@ def not_written(folder: Path, edited: bool = True) -> str:
 def entries(folder: Path, names: Iterable[str]) -> list[Path]:
     """All entries of a directory, in order, except compiled files.
 
-    A folder is entered if it is to hold one of the named files; any other is one entry.
+    A folder is entered if it is to hold one of the named files; any other counts as one entry.
     """
     inner = {parent.as_posix() for name in names for parent in Path(name).parents}
     return _entries(folder, folder, inner)

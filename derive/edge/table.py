@@ -130,7 +130,7 @@ def read(path: Path, units: Mapping[str, str] | None = None) -> tuple[Step, ...]
                 raise BadTable(
                     shown,
                     f"a load step has {x.size} nodes, and at most {MOST_NODES} are allowed",
-                    "export every second node, say, or fewer",
+                    "export fewer nodes, for example every second one",
                 )
             order = slice(None, None, -1 if np.all(np.diff(x) < 0) else 1)  # from left to right
             shear_here = None if q is None else q[rows][order]
@@ -210,7 +210,8 @@ def _better(
 ) -> tuple[tuple[int, int], _Lines]:
     """Return the better of two ways to split lines.
 
-    More rows that hold only numbers, at least two, are better; if equal, more rows with any two.
+    The better way gives more rows of at least two fields, all numbers; or, if equal, more rows with
+    at least two numbers.
     """
     rows = tuple((number, _fields(line, separator)) for number, line in lines)
     counts = [(sum(_is_number(f, comma) for f in of), len(of)) for _, of in rows]

@@ -152,7 +152,7 @@ class Claim:
     conventions  sign conventions that are tried if the claim is not true as printed
     through      two expressions that must agree when the symbol `left` is replaced by `right`;
                  used for a definition, which cannot be wrong by itself
-    cases        the points to use, with numbers as text, if only a few can be afforded
+    cases        the points to use, with numbers as text, if more would take too long
     source       the printed equation as text, which keeps its form; SymPy would simplify it
     reading      reads a changed form of `source` as both sides; None for one that cannot be read
     seconds      the time limit of the verdict, and then of the search for a correction

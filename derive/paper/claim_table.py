@@ -270,8 +270,8 @@ class ClaimReader:
         place, table = entries.place.inside("given"), dict[Symbol, Expr]()
         for label in entries.texts("given"):
             if label not in self._read:
-                remedy = "name a claim that comes before this one and can be read"
-                raise place.bad(f"{label!r} is not a claim before this one", remedy)
+                remedy = "give the label of an earlier claim that can be read"
+                raise place.bad(f"{label!r} is not the label of an earlier claim", remedy)
             left, right = self._read[label]
             if not isinstance(left, Symbol):
                 left, right = right, left

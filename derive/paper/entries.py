@@ -103,7 +103,7 @@ class TimeLimit:
                 return read()
         except LimitReached:
             why = f"it could not be read within {self.seconds:g} s"
-            raise place.bad(why, "simplify it, or increase seconds") from None
+            raise place.bad(why, "simplify it, or increase `seconds`") from None
         except RecursionError:
             raise place.bad("it is nested too deeply", "simplify it") from None
         except NotProven as error:

@@ -544,7 +544,7 @@ class _Side:
         elif first.text in ("(", "{", "[") or first.is_mark:
             inner = self._group()
             if first.text == "{" and any(piece.text in ("+", "-") for piece in inner):
-                why = "braces are not printed, so the print does not show the end of the argument"
+                why = "braces are not printed, so the end of the argument is unclear"
                 raise self.latex.refusal(first.column, why, "use parentheses")
             if not inner:
                 raise self.latex.refusal(head.column, f"{head.text} has no argument", "add one")
@@ -676,7 +676,7 @@ class _Side:
             _divided(part, (",", r"\andword"))[0] for part in _divided(pieces, (r"\orword",))[0]
         ]
         if len(either) > 1 and any(len(parts) > 1 for parts in either):
-            why = "some of these conditions are joined by or, and others by and or a comma"
+            why = "some of these conditions are joined by `or`, and others by `and` or a comma"
             raise self.latex.refusal(column, why, "write the condition as text")
         return " or ".join(
             " and ".join(self._condition(part, column) for part in parts if part)

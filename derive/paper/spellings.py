@@ -79,7 +79,7 @@ PROPOSALS = {
     "P_prime": ("load_rate(a, c)", "slope of the contact law at fixed tilt", "Pa", "", ""),
     "a_prime": (
         "edge_ratio(a, c)",
-        "change in the left edge over that of the right one",
+        "change in the left edge divided by that in the right one",
         "-",
         "",
         "",

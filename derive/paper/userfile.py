@@ -135,7 +135,8 @@ def source(path: Path) -> tuple[str, dict[str, Any]]:
     except UnicodeDecodeError as error:
         raise BadClaimsFile(str(path), "the file is not UTF-8 text", remedy) from error
     except RecursionError:
-        why = f"its tables are nested {_depth(text)} deep, and {_DEEPEST} levels are enough"
+        deep = _depth(text)
+        why = f"its tables are nested {deep} deep, and at most {_DEEPEST} levels are allowed"
         raise BadClaimsFile(str(path), why, remedy) from None
     except ValueError as error:
         why = "an integer has too many digits" if "digits" in str(error) else str(error)

@@ -6,10 +6,10 @@
     measure     the units of axes: a symbol and its unit, or a ratio
     given       checks of the input, which raise one clear error
     tractions   pressure; shear traction and its change over a half-cycle; slip, frictional work
-    zones       stick and slip over a cycle, or over a parameter
+    zones       stick and slip over a cycle, or against a parameter
     histories   any load history: stick and slip over time, shear, slip, frictional work, animation
     live        contact, tractions and slip zones of a cycle, controlled by sliders in a notebook
-    series      errors of the series of the slip zones, over the size of the zones
+    series      errors of the series of the slip zones, against the size of the zones
 
 A generated module and its constants are passed as arguments, for example
 ``pressures(wedge, states, ...)``; this package does not load any body itself.  Every function draws

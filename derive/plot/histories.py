@@ -194,8 +194,8 @@ def _bounds(body: ModuleType, history: Any, x: Array, f: float, constants: Any) 
 def _demand_friction(history: Any, x: Array, bound: Array) -> None:
     """Demand that shear exceed f p nowhere, and reach it at a point that slips, if there is any.
 
-    All points slip that are outside [-m, n] by more than the error; on elements, a single one of
-    them may stick.
+    All points outside [-m, n] by more than the error slip; on elements, a single one of them may
+    stick.
     """
     a, c, m, n, error = (
         v[:, None] for v in (history.a, history.c, history.m, history.n, history.error)
@@ -366,7 +366,7 @@ def work(
     label: str | None = None,
     **constants: float,
 ) -> Axes:
-    """Draw the frictional work of the whole history over x; see `friction_work`.
+    """Draw the frictional work of the whole history against x; see `friction_work`.
 
     Parameters
     ----------

@@ -87,7 +87,7 @@ def errors(
     axes: Axes | None = None,
     **constants: float,
 ) -> Axes:
-    """Draw the relative errors of the series over the size of the slip zone, on logarithmic axes.
+    """Draw the relative errors of the series against the size of the slip zone on log-log axes.
 
     Filled markers are for the left edge, and open markers for the right edge.
 

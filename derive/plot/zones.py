@@ -1,4 +1,4 @@
-"""Maps of stick and slip, with position over time or over a parameter."""
+"""Maps of stick and slip, with position against time or against a parameter."""
 
 from collections.abc import Iterator
 from math import ceil
@@ -93,7 +93,7 @@ def sweep(
     length: Measure | None = None,
     legend: bool = True,
 ) -> Axes:
-    """Draw contact, stick and slip at the end of a half-cycle, over a parameter.
+    """Draw contact, stick and slip at the end of a half-cycle, against a parameter.
 
     Parameters
     ----------

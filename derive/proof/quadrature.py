@@ -185,7 +185,7 @@ def _slope_as_given(g: Expr) -> Expr:
 
 
 def _larger(first: Expr, *others: Expr) -> Expr:
-    """Max by branches; comparing with values other than zero may take SymPy forever."""
+    """Max by branches; SymPy may never finish comparing with values other than zero."""
     if not others:
         return first
     second = _larger(*others)

@@ -11,7 +11,7 @@ MEANINGS = {
     Regime.MIXED: "slip reverses within a half-cycle: use stick_zone(..., mixed=True) for constant "
     "normal loads, or steady_cycle for any loads",
     Regime.SLIDING: "dQ reaches f (P_1 + P_2): the contact slides and nothing sticks",
-    Regime.FULL_STICK: "friction holds everywhere: nothing slips",
+    Regime.FULL_STICK: "the whole contact sticks: nothing slips",
     Regime.UNSOLVED: "the iteration did not converge, the phases of a mixed cycle were not found, "
     "as under very large tension, or the tilts do not determine the edges to 1e-6 of the width: "
     "use steady_cycle, which estimates its error",

@@ -49,16 +49,16 @@ class Regime(IntEnum):
         The edges slip in opposite directions: m and n are exact.
     MIXED : 3
         Slip reverses within a half-cycle, or one edge sticks: m and n are NaN, except under
-        constant normal loads if forward slip finally overtakes the reversed slip, or if
+        constant normal loads if forward slip eventually covers the zone of reversed slip, or if
         `mixed=True` makes stick_zone solve the cycle.
     SLIDING : 4
         Nothing sticks: m and n are NaN.
     FULL_STICK : 5
-        Nothing slips: m and n are the smallest a and c of all contacts on the way.
+        Nothing slips: m and n are the smallest a and c during the half-cycle.
     UNSOLVED : 6
         The iteration did not converge, the tilts do not determine the edges, the phases of a mixed
-        cycle were not found, or a contact rolled in from far away, so that its shear is not known:
-        m and n are NaN.
+        cycle were not found, or the contact approached from a great distance, so that its shear is
+        not known: m and n are NaN.
     OUT_OF_PHASE : 7
         The loads of a march are not in proportion at every instant, or turn within a half-cycle:
         NaN at all instants.
@@ -68,7 +68,7 @@ class Regime(IntEnum):
         Solved on elements, with an estimate of the error.
     NO_STICK : 10
         Every point slips at some time, although the contact never slides, because no stick zone can
-        hold the mean shear load: m and n are NaN.
+        carry the mean shear load: m and n are NaN.
     """
 
     NONE = 0
@@ -146,7 +146,7 @@ class History(NamedTuple):
         The contact [-a, c] [m].
     m, n : ndarray
         [-m, n] spans all points that stick during the last change in the loads up to this instant,
-        also while the loads rest [m]; NaN where nothing sticks.
+        or during the last such change if the loads are held constant [m]; NaN where nothing sticks.
     intervals : ndarray of int
         The number of stick intervals.
     regime : ndarray of int
@@ -164,8 +164,8 @@ class History(NamedTuple):
         Estimated error of work [J/m]; its difference between two instants is the estimated error of
         the work done between them.
     slip_error : ndarray
-        Estimated error of slip [m], the largest wherever the bodies have been in contact, next to
-        moving edges as a rule.
+        Estimated error of slip [m]: the largest at any point that has been in contact, usually next
+        to a moving edge.
     """
 
     a: Array
@@ -208,9 +208,9 @@ class SteadyCycle(NamedTuple):
     work_error : ndarray
         Estimated error of work [J/m]; work is always computed numerically.
     slip_error : ndarray
-        Estimated error of the slip range [m], the largest in the smallest contact.
+        Estimated error of the slip range [m]: the largest at any point of the smallest contact.
     shear_error : ndarray
-        Estimated error of q [Pa], on average over the contact, 2e-3 of f P/(a + c) as a rule.
+        Estimated error of q [Pa], averaged over the contact; typically 2e-3 of f P/(a + c).
     """
 
     m: Array

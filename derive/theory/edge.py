@@ -77,7 +77,7 @@ def grown(coefficients: Sequence[Expr], move: Expr) -> list[Expr]:
 
 
 def width_term() -> Expr:
-    """Second-order contribution of a width h to the load that drives slip, over f K_N D**2.
+    """Second-order contribution of a width h to the load that drives slip, divided by f K_N D**2.
 
     >>> width_term()
     1/(8*(a + c))

@@ -131,7 +131,7 @@ class edge_angle(Named):
 
 
 class part_area(Named):
-    """int w ds over h**2/8, for a part between two kinks.
+    """int w ds divided by h**2/8, for a part between two kinks.
 
     across: sine of half the sum of the angles of its ends.
     """
@@ -146,7 +146,7 @@ class part_area(Named):
 
 
 class part_arm(Named):
-    """int w (s - mid) ds over h**3/24, for a part between two kinks."""
+    """int w (s - mid) ds divided by h**3/24, for a part between two kinks."""
 
     nargs = 5
     letters = (_t, *_ends)
@@ -161,7 +161,7 @@ class part_arm(Named):
 
 
 class part_weight(Named):
-    """int w/A ds over h, for a part between two kinks; B instead of A for the right edge.
+    """int w/A ds/h, for a part between two kinks; B instead of A for the right edge.
 
     far: product of the cosines of half the angles of its ends; product of the sines for B.
     """
@@ -377,14 +377,14 @@ class Part:
 
     @property
     def area(self) -> Expr:
-        """int w ds over h**2/8."""
+        """int w ds divided by h**2/8."""
         if not self.is_inner:
             return segment(self.t)
         return part_area(self.t, self.across)
 
     @property
     def arm(self) -> Expr:
-        """int w (s - mid) ds over h**3/24."""
+        """int w (s - mid) ds divided by h**3/24."""
         if not self.is_inner:
             return (-1 if self.before is None else 1) * sin(self.t) ** 3
         return part_arm(self.t, *self.begins, *self.ends)
@@ -403,7 +403,7 @@ class Part:
         return self.t / 2 * factor_terms(both) + bent
 
     def weight(self, edge: Edge) -> Expr:
-        """int w/A ds over h for the left edge, int w/B ds over h for the right one."""
+        """int w/A ds/h for the left edge, int w/B ds/h for the right one."""
         touched = self.before if edge is Edge.LEFT else self.behind
         if self.is_inner:
             return part_weight(self.t, self.far if edge is Edge.LEFT else self.near)
@@ -416,7 +416,7 @@ class Part:
 
     @property
     def seen(self) -> Expr:
-        """int L ds over h, for the pressure at x."""
+        """int L ds/h, for the pressure at x."""
         if self.before is None:
             return end_pressure(self.t, sin_x, cos_x)
         if self.behind is None:

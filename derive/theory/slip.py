@@ -32,7 +32,7 @@ K_T_left, K_T_right = symbols("K_T_left K_T_right", real=True)
 senses = symbols("kappa_left kappa_right", real=True)
 """Directions of slip: +1 forward, -1 backward."""
 D_left, D_right, rho, width = symbols("D_left D_right rho h", positive=True)
-"""Slip zones of order 1; K_N kappa at the right edge over that at the left edge; contact width."""
+"""Slip zones of order 1; K_N kappa at the right edge divided by that at the left; contact width."""
 
 
 def stuck_edge(edge: Edge) -> Symbol:

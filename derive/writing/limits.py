@@ -26,7 +26,7 @@ def fault(expr: Expr) -> str:
     if expr.has(I) or expr.is_extended_real is False:
         return "is not real"
     if any(_bits(number) > _LONGEST for number in expr.atoms(Rational)) or _is_too_large(expr):
-        return "contains a number that is too large or too small, beyond 1e100 or within 1e-100"
+        return "contains a nonzero number whose magnitude is above 1e100 or below 1e-100"
     if terms(expr) > MOST_TERMS:
         return f"has powers above {STEEPEST} or more than {MOST_TERMS} terms when expanded"
     return ""

@@ -76,7 +76,7 @@ class Token:
 
 
 def tokens(text: str) -> Iterator[Token]:
-    """The tokens of `text`, followed by END forever; the text is read only as far as needed."""
+    """The tokens of `text`, then END without limit; the text is read only as far as needed."""
     if len(text) > LONGEST:
         raise refusal(
             text,

@@ -174,7 +174,7 @@ def formulas(sheet: FormulaSheet, body: Body) -> Iterator[str]:
         yield f"$$\n{latex_of(symbol)} = {latex_of(expr)}\n$$\n"
     yield "## The generated module\n"
     yield (
-        f"`{body.name}.py`, {body.text.count(chr(10))} lines. The functions keep their digits at "
+        f"`{body.name}.py`, {body.text.count(chr(10))} lines. The functions remain accurate at "
         "the edges, accept arrays, and require only NumPy and numba.\n"
     )
     yield _folded("Show the code", "python", body.text)

@@ -174,11 +174,11 @@ def stick_zone(
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
         MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
         because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
-        given only under constant normal loads: if forward slip finally overtakes the reversed
-        slip, or if `mixed` is True.  This function knows only the changes in the loads.  Under
-        large tension, or if a moment rocks the contact, no zone sticks if the mean shear load is
-        too high; march and steady_cycle check this.  steady_cycle solves every cycle and
-        estimates the error of computed results.
+        given only under constant normal loads, and only if forward slip eventually covers the
+        zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
+        loads.  Under large tension, or if a moment rocks the contact, no zone sticks if the mean
+        shear load is too high; march and steady_cycle check this.  steady_cycle solves every
+        cycle and estimates the error of computed results.
 
     Raises
     ------
@@ -265,7 +265,7 @@ def tension_threshold(
     -------
     Threshold
         lower [Pa], upper [Pa].  NaN unless such a range exists.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which is sliding.
+        dQ >= f (P_1 + P_2), which means sliding.
 
     Raises
     ------
@@ -295,7 +295,7 @@ def closing_tension(
     Threshold
         lower [Pa], upper [Pa].  Slip reverses before the zone closes; see tension_threshold.
         NaN unless the reduced load is positive.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which is sliding.
+        dQ >= f (P_1 + P_2), which means sliding.
 
     Raises
     ------
@@ -354,7 +354,7 @@ def slip_zones(
     -------
     Edges
         left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P_1 + P_2), which is sliding.
+        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
 
     Raises
     ------
@@ -394,7 +394,7 @@ def slip_error(
     -------
     Edges
         left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P_1 + P_2), which is sliding.
+        where dQ >= f (P_1 + P_2), which means sliding.
 
     Raises
     ------
@@ -456,7 +456,7 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which is sliding.
+        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
 
     Raises
     ------
@@ -492,7 +492,7 @@ def slip_range(
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which is sliding.
+        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
 
     Raises
     ------
@@ -571,7 +571,7 @@ def shear(
         slip is confined to points that slipped during the rise and drives none of them further
         in the same direction, and dQ <= 2 Q.  If the shear load is larger in magnitude at the lower
         end, reverse all signs, including that of q.  Also NaN where Q < 0 or dQ < 0, and where
-        Q >= f P, which is sliding.
+        Q >= f P, which means sliding.
 
     Raises
     ------
@@ -616,7 +616,7 @@ def march(
 
     Since the last reversal of the loads, at the least or the greatest Q, slip has grown as in a
     half-cycle that ends now: by stick_zone, or by slip_zones if an order is given.  This does not
-    hold if the whole half-cycle is MIXED, where only its end may be known.
+    hold if the whole half-cycle is MIXED; then at most the state at its end is known.
 
     Parameters
     ----------
@@ -627,12 +627,12 @@ def march(
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
         instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within
-        a half-cycle), NOT_CLOSED (the
-        step from the last instant back to the first is at least 99 % of the whole change, as in a
-        first loading), SLIDING (|Q| >= f P at some instant), NO_STICK (no stick zone can hold the
-        mean of Q, to 1e-3 of f P) or NONE (a contact does not exist).  Use steady_cycle for
-        cycles out of phase, and history for load histories that are not cycles.
+        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
+        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
+        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
+        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
+        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
+        not cycles.
 
     Raises
     ------
@@ -640,8 +640,9 @@ def march(
         If an argument is not a real number or an array of real numbers, or the order is
         not a whole number.
     ValueError
-        If the shapes of the arguments do not broadcast, there are fewer than two instants, f,
-        E_star or a parameter of the body changes in time, or the order is not one of 0, 1, 2 and 3.
+        If the shapes of the arguments do not broadcast; if there are fewer than two instants; if
+        f, E_star or a parameter of the body changes with time; or if the order is not one of 0, 1,
+        2 and 3.
 
     Notes
     -----
@@ -679,7 +680,7 @@ def march(
 def _constant(value: Any, cycles: list[int], instants: int) -> Any:
     """The values of a constant, one per cycle, as a column.
 
-    Raises ValueError if the constant changes in time.
+    Raises ValueError if the constant changes with time.
     """
     held = np.broadcast_to(value, (*cycles, instants)).reshape(math.prod(cycles), instants)
     if np.any((held != held[:, :1]) & ~np.isnan(held)):

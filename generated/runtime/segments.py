@@ -89,7 +89,9 @@ def edge_angle(within: Array, beyond: Array) -> Array:
 
 @shared
 def part_area(t: Array, across: Array) -> Array:
-    """int w ds over h**2/8, for a part between two kinks: 2 segment(t/2) + 2 sin(t) across**2.
+    """int w ds divided by h**2/8, for a part between two kinks.
+
+    It is 2 segment(t/2) + 2 sin(t) across**2.
 
     t: the angle of the part, 0 <= t <= pi.
     across: the sine of half the sum of the angles of its ends.
@@ -102,7 +104,7 @@ def part_area(t: Array, across: Array) -> Array:
 
 @shared
 def part_arm(t: Array, sine_1: Array, cosine_1: Array, sine_2: Array, cosine_2: Array) -> Array:
-    """int w (s - mid) ds over h**3/24, for a part between two kinks.
+    """int w (s - mid) ds divided by h**3/24, for a part between two kinks.
 
     t: the angle of the part.
     sine_1, ..., cosine_2: sines and cosines of half the angles of its ends.
@@ -117,7 +119,7 @@ def part_arm(t: Array, sine_1: Array, cosine_1: Array, sine_2: Array, cosine_2: 
 
 @shared
 def part_weight(t: Array, far: Array) -> Array:
-    """int w/A ds over h, for a part between two kinks: segment(t/2) + 2 sin(t/2) far.
+    """int w/A ds/h, for a part between two kinks: segment(t/2) + 2 sin(t/2) far.
 
     t: the angle of the part.
     far: the product of the cosines of half the angles of its ends; of the sines for the right edge.

@@ -53,7 +53,8 @@ MEANINGS = {
     "order": "order of the series: 1, 2 or 3",
     "second": "Contact at the end of that half-cycle; equal to first for constant normal loads",
     "sigma": "differential bulk tension at every instant [Pa]",
-    "tol": "target error: of m and n over a + c, in a history also of shear over f P/(a + c)",
+    "tol": "target error: m and n relative to a + c; in a history, also shear relative to "
+    "f P/(a + c)",
     "x": "position along the interface, positive to the right [m]",
     "E_star": "composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]",
 }

@@ -154,10 +154,10 @@ MEANING = [
     ("x**101", 1, "exponent is too large", "100"),
     ("(x + b + R + k)**50", 15, "1000 terms", "another"),
     ("x**60*x**60", 5, "powers above 100", "another"),
-    ("exp(exp(exp(9)))", 4, "too large or too small", "another"),
+    ("exp(exp(exp(9)))", 4, "above 1e100 or below 1e-100", "another"),
     ("1e101*x", 0, "number is too long", "40 digits"),
     ("9" * 1000, 0, "number is too long", "40 digits"),
-    ("*".join(["1e90"] * 20), 4, "too large or too small", "another"),
+    ("*".join(["1e90"] * 20), 4, "above 1e100 or below 1e-100", "another"),
 ]
 
 REFUSED = CODE + CHARACTERS + GRAMMAR + NAMES + MEANING

@@ -126,7 +126,10 @@ def test_the_worked_example() -> None:
 
 BAD = {
     "no TOML": ("title = ", "not valid TOML"),
-    "a deep list": ("a = " + "[" * 3000 + '"]"' + "]" * 3000, "nested 3000 deep, and 8 levels"),
+    "a deep list": (
+        "a = " + "[" * 3000 + '"]"' + "]" * 3000,
+        "nested 3000 deep, and at most 8 levels",
+    ),
     "no claims": (HEAD, "the file has no [[claims]]"),
     "claims no list": (HEAD + "\n[claims]\n", "the file has no [[claims]]"),
     "unknown key": ('colour = "red"\n' + CIRCLE, "'colour'"),
@@ -207,7 +210,10 @@ BAD_CLAIMS = {
     "require": (CIRCLE + "require = 'q > 0'\n", "require: the claims file does not define q"),
     "limit": (CIRCLE + "as = 'r - 0'\n", "as: this is not a limit"),
     "part": (CIRCLE.replace("printed", "latex") + "part = 9\n", "part = 9"),
-    "given": (CIRCLE + "given = ['nothing']\n", "given: 'nothing' is not a claim"),
+    "given": (
+        CIRCLE + "given = ['nothing']\n",
+        "given: 'nothing' is not the label of an earlier claim",
+    ),
     "no flag": (
         CIRCLE + "leading = false\n",
         "leading = False is not allowed",

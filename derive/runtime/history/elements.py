@@ -26,7 +26,7 @@ COSINE, EVEN, CENTRED = 0.0, 1.0, 2.0
 """Kinds of a part of the mesh: refined towards both ends, uniform, refined towards its centre."""
 
 GRADING = 4.0
-"""Distance from the centre of a refined part over the width of an element at that distance."""
+"""Distance from the centre of a refined part, divided by the width of an element there."""
 DEEPEST = 8.0
 """Largest logarithm of the ratio of that distance at the ends of the part to that of its smallest
 elements.  Much smaller elements would leave no digits in the influence matrix."""

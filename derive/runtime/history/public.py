@@ -27,7 +27,7 @@ TURNING = 1e-7
 class _Given(NamedTuple):
     """Rows for a kernel, one per history.
 
-    rows      f, tol, the number of points, the loads over E*, and the points
+    rows      f, tol, the number of points, the loads divided by E*, and the points
     own       parameters of the body
     cycles    shape of the histories, without the axis of time
     instants  number of instants
@@ -71,12 +71,12 @@ def history(
     Returns
     -------
     History
-        a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m]; error;
-        work_error [J/m]; slip_error [m].  All are NaN where there is no contact.  If the contact
-        slides, m and n are NaN at that instant, and slip and work from then on.  UNSOLVED: only
-        a and c are known, as from P = 0 with M != 0 on, from where the contact rolls in from far
-        away.  Slip rates are not returned, because time is not an argument; for a 1-D x, the slip
-        between two instants is `np.diff(slip, axis=-2)`.
+        a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m]; error; work_error
+        [J/m]; slip_error [m].  All are NaN where there is no contact.  If the contact slides, m
+        and n are NaN at that instant, and slip and work from then on.  If the regime is UNSOLVED,
+        only a and c are known, for example after P = 0 with M != 0, when the contact approaches
+        from a great distance.  Slip rates are not returned, because time is not an argument; for a
+        1-D x, the slip between two instants is `np.diff(slip, axis=-2)`.
 
     Raises
     ------
@@ -84,14 +84,14 @@ def history(
         If an argument is not a real number or an array of real numbers, x is a Dask array,
         or tol is not a number.
     ValueError
-        If the shapes of the arguments do not broadcast, there is no instant, f, E_star or a
-        parameter of the body changes in time, or tol is not positive.
+        If the shapes of the arguments do not broadcast; if there is no instant; if f, E_star or a
+        parameter of the body changes with time; or if tol is not positive.
 
     Notes
     -----
     Arguments broadcast; time lies along the last axis, and all loads vary linearly between two
-    instants.  From P = 0 the loads grow in proportion: q = (Q/P) p while the contact is small.  At
-    single points, q next to the ends of stick intervals is less accurate than on average.  Many
+    instants.  From P = 0 the loads grow in proportion, so that q = (Q/P) p while the contact is
+    small.  Next to the ends of stick intervals, q is less accurate than on average.  Many
     histories are distributed over the cores; Dask arrays stay lazy.
     """
     numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
@@ -168,8 +168,8 @@ def steady_cycle(
         If an argument is not a real number or an array of real numbers, x is a Dask array,
         or tol is not a number.
     ValueError
-        If the shapes of the arguments do not broadcast, there is no instant, f, E_star or a
-        parameter of the body changes in time, or tol is not positive.
+        If the shapes of the arguments do not broadcast; if there is no instant; if f, E_star or a
+        parameter of the body changes with time; or if tol is not positive.
 
     Notes
     -----
@@ -280,7 +280,7 @@ def _numbers(
 def _given(asked: Asked, numbers: Numbers, x: Array, tol: float) -> _Given:
     """Arrange the arguments in rows.
 
-    Raises ValueError if a constant changes in time.
+    Raises ValueError if a constant changes with time.
     """
     *cycles, instants = shape_of(numbers) or (1,)
     shape = (*cycles, instants)

@@ -440,12 +440,12 @@ def _smallest(law: Any, own: Any, rows: Any) -> Any:
 def cycle_on_mesh(
     law: Any, own: Any, f: float, loads: Any, points: Any, count: int, stick_ends: Any
 ) -> Any:
-    """A cycle on one mesh: the results of a cycle, then slip range and first q at the points.
+    """A cycle on one mesh: the results of a cycle, then slip range and initial q at the points.
 
     m and n are the edges of the smallest contact, and the error of work is only that due to the
     drift; the other errors are NaN.  Also returns the ends of the elements, where slip has jumps or
     kinks, and rows: the total slip and the slip range of the elements in a cycle, 1 for those that
-    are always in contact, first q, and the work per length in a cycle.
+    are always in contact, initial q, and the work per length in a cycle.
     """
     nothing, fields = np.empty(0), np.ones((5, count))
     asked = points.size
@@ -560,7 +560,7 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
     """Steady cycles with their errors, on as many meshes as each of them needs.
 
     given: as for each_history; the loads of the last instant are those of the first.
-    out: the results of a cycle, then slip range and first q at the points.
+    out: the results of a cycle, then slip range and initial q at the points.
     """
     law = opened(law)
     for row in range(given.shape[0]):

@@ -137,7 +137,7 @@ def _doubtful(x: Any, state: Any, last: int, side: int, edge: float) -> float:
 def sticking(x: Any, state: Any, a: float, c: float, fresh: bool) -> Any:
     """m, n, the number of stick intervals and of elements that slip, and an error of m and n.
 
-    The error is the length of slip at an edge that is so small that it may be spurious.
+    The error is the length over which slip at an edge is so small that it may be spurious.
 
     A single element that sticks counts as an interval only if no interval is longer.
 

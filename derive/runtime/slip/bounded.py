@@ -10,8 +10,8 @@ sqrt(y/(h_s + y)), the change in shear is bounded at both ends of [-m, n] if
     right:  R = int_left r u dy + int_right r/u dy = dQ - pi h_s dsigma/8.
 
 Let C be the finite part of int r/(y w) dy, w = sqrt(y (h_s + y)), let D = int r/((h_s + y) w) dy,
-and let F be the residual of the right condition less that of the left one, over h_s.  The rates of
-the residuals are
+and let F be the residual of the right condition less that of the left one, divided by h_s.  The
+rates of the residuals are
 
     d right/dn =  F/2 + h_s (C_right + D_left)/2,    d right/dm =  F/2,
     d left/dn  = -F/2,                               d left/dm  = -F/2 + h_s (C_left + D_right)/2.

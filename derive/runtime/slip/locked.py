@@ -1,4 +1,4 @@
-r"""Whether the stick zone can hold the shear load of the cycle.
+r"""Whether the stick zone can carry the shear load of the cycle.
 
 The stick zone follows from the changes in the loads, dQ and dsigma.  It is permanent only if there
 is a shear traction q1 at the first end of the half-cycle that carries Q there and is within the

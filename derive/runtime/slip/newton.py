@@ -1,7 +1,7 @@
 """Newton's method kept within bounds: for one unknown in a bracket, and for two slip zones.
 
-The unknowns for two slip zones are the logarithms of their lengths over the width of the stick zone
-between them, so that all three stay positive.
+The unknowns for two slip zones are the logarithms of their lengths divided by the width of the
+stick zone between them, so that all three stay positive.
 """
 
 import math

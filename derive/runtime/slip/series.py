@@ -1,4 +1,4 @@
-r"""Slip zones by series in their length over the width of the stick zone.
+r"""Slip zones by series in their length divided by the width of the stick zone.
 
 At a distance s from an edge p = K s**(1/2) + L s**(3/2) + N s**(5/2) + ...  Let h_s be the width of
 the stick zone and e = d/h_s.  In the conditions for a bounded change in shear
@@ -50,7 +50,7 @@ ROUNDING = 64 * 2.0**-52
 
 
 class Series(NamedTuple):
-    """One half-cycle: its loads over E*, and p = K s**(1/2) + L s**(3/2) + N s**(5/2) at each edge.
+    """One half-cycle: loads/E*, and p = K s**(1/2) + L s**(3/2) + N s**(5/2) at each edge.
 
     h            width of the intersection of both contacts
     left, right  K, L, N at the edges of the contact now; left_2, right_2 at the other end

@@ -50,7 +50,7 @@ def ends_of(law: Any, own: Any, cycle: Any) -> Any:
 
 @kernel(truth(matrix, vector))
 def exists(ends: Any, cycle: Any) -> Any:
-    """Whether there is such a cycle."""
+    """Whether both contacts exist and the changes in the loads and the friction are valid."""
     for i in range(2):
         if not (math.isfinite(ends[i, LOAD]) and math.isfinite(ends[i, TILT])):
             return False

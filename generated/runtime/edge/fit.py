@@ -5,12 +5,11 @@ Next to an edge p**2 = K_N**2 s + 2 K_N L_N s**2 + ... is a polynomial, whose ro
 Once the edge is known, full-stick dq sqrt(s) = K_T + L_T s + ... is another polynomial.
 
 The first node under pressure belongs to the element in which the contact ends, and is left out.
-That the edge lies between this node and the node before it is used as an additional data point.
-Polynomials of degree 1 to 3 are fitted to all stretches that begin after the first node.  The
-scatter of the nodes is estimated from cubics fitted to short stretches all over the contact, at
+The fact that the edge lies between this node and the previous one is used as an additional data
+point.  Polynomials of degree 1 to 3 are fitted to all stretches that begin after the first node.
+The scatter of the nodes is estimated from cubics fitted to short stretches all over the contact, at
 most two thirds of which are assumed to meet kinks.  The error of the mesh next to the edge is added
-to the scatter.
-The stretch and the degree are those that minimise
+to the scatter.  The stretch and the degree are those that minimise
 
     misfit**2 + 2 (coefficients + nodes left out)
 
@@ -284,7 +283,8 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
     edge, edge_error = float(edge), float(edge_error)
     if not (math.isfinite(edge) and edge_error >= 0 and math.isfinite(edge_error)):
         raise ValueError(
-            "edge and edge_error must be finite numbers in metres, edge_error not negative; got "
+            "edge and edge_error must be finite numbers in metres, and edge_error must not be "
+            "negative; got "
             f"{edge}, {edge_error}"
         )
     sense = 1.0 if x[-1] > x[0] else -1.0
@@ -377,7 +377,8 @@ def K_N_from_loads(P: Array, M: Array, a: Array, c: Array) -> Edges:
     if any(v.ndim == 0 or v.shape[-1] != 2 for v in given):
         shapes = ", ".join(str(v.shape) for v in given)
         raise ValueError(
-            "P, M, a and c must each hold two loads along their last axis; their shapes are "
+            "P, M, a and c must each hold two values along their last axis, one for each load; "
+            "their shapes are "
             f"{shapes}"
         )
     (dP, dM, da, dc) = (v[..., 1] - v[..., 0] for v in given)

@@ -26,7 +26,7 @@ by less under each of the punches, so that the surfaces slip forward.
 
 Let L be the lowest load to which slip extends in the steady cycle, and Q_L = f int_0^L s dL.  Then
 |Q - Q_L| <= f (P - L) at all instants.  Slip reaches L with one sign of s, because L is the lowest
-load, and later with the other sign, because s would otherwise not change any more.  Equality holds
+load, and later with the other sign, because s would otherwise no longer change.  Equality holds
 both times.  Hence -f L + Q_L = max(Q - f P) and -f L - Q_L = max(-Q - f P), so that L = P_E.  One
 cycle is enough: at the instant of the first or of the second maximum, the shear carried by the
 loads below P_E becomes Q_L, and from then on slip does not extend below P_E.

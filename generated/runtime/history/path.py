@@ -5,7 +5,7 @@ Rows of a path hold P, M, Q, sigma, a, c, and the number of the instant, or -1 b
 Steps are so short that no edge moves farther than `reach` times the widest contact, and a step ends
 wherever |Q| reaches f P or falls below it.  The contact before a loss of contact is small.  So is
 the first one after it, or it is that of a flat body under a small load.  If there is neither,
-because the contact appears far away and rolls in, its shear traction is not known, and Q in the
+because the contact approaches from a great distance, its shear traction is not known, and Q in the
 first row is NaN.
 """
 

@@ -135,11 +135,11 @@ def slips_at_the_start(path: Any, cycle: Any, right: float) -> Any:
 def sticks_all_over(path: Any, cycle: Any) -> Any:
     """Whether nothing slips at all.
 
-    An edge whose motion reverses on the way, advance = 0, cannot bear any shear at that point.  The
-    rates of shear and of pressure, times w, vary linearly between their values at the edges.  If
-    the pressure rises at both edges, or falls at both, the friction limit is met everywhere if it
-    is met at the edges.  Otherwise the pressure is stationary at some point while the shear
-    changes, and the edges decide nothing, unless there is no shear.
+    An edge whose motion reverses along the path, advance = 0, cannot bear any shear at that
+    point.  The rates of shear and of pressure, times w, vary linearly between their values at the
+    edges.  If the pressure rises at both edges, or falls at both, the friction limit is met
+    everywhere if it is met at the edges.  Otherwise the pressure is stationary at some point while
+    the shear changes, and the edges decide nothing, unless there is no shear.
     """
     dQ, dsigma, f = cycle[4], cycle[5], cycle[6]
     if dQ == 0 and dsigma == 0:

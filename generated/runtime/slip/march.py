@@ -9,12 +9,12 @@ regime is therefore that of the whole half-cycle.  Where slip reverses within it
 states at its ends are returned.
 
 Histories that cannot be solved are refused at all instants: loads out of proportion, a history that
-does not return to its first state, |Q| >= f P, and a shear load that the stick zone cannot hold.
+does not return to its first state, |Q| >= f P, and a shear load that the stick zone cannot carry.
 The last instant leads straight back to the first.  If this last step is nearly the whole way from
 one state to the other, the history is taken for a first loading and not for a cycle.
 
-The loads are a matrix with rows P, M, Q, sigma over E* and a column per instant.  The contacts are
-a matrix with columns A, C, TILT, LOAD and MOMENT and a row per instant.
+The loads are a matrix with rows P, M, Q, sigma, divided by E*, and a column per instant.  The
+contacts are a matrix with columns A, C, TILT, LOAD and MOMENT and a row per instant.
 """
 
 import math
@@ -116,7 +116,7 @@ def _progress(loads: Array, roundings: Array) -> Array:
 def _starts(progress: Array) -> Array:
     """The instant at which each half-cycle began; NaN where the way there or back is not monotonic.
 
-    While the loads rest at a reversal, the half-cycle that led there has reached its end.
+    While the loads are constant at a reversal, the half-cycle that led there has reached its end.
     """
     count, begin = progress.size, 0
     for i in range(count):
