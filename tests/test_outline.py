@@ -105,7 +105,15 @@ def value(expr: Expr, name: str) -> float:
     return result.real
 
 
-@pytest.mark.parametrize("name", OUTLINE.EQUATIONS)
+SLOW = ("bounded", "stick", "stick_zone")
+"""Equations with a principal value or with slip zones, which take ten seconds and more."""
+
+EACH = [
+    pytest.param(name, marks=[pytest.mark.thorough] * (name in SLOW)) for name in OUTLINE.EQUATIONS
+]
+
+
+@pytest.mark.parametrize("name", EACH)
 def test_an_equation_of_the_outline_holds_for_a_cylinder(name: str) -> None:
     for left, right in OUTLINE.EQUATIONS[name]:
         assert value(left, name) == pytest.approx(value(right, name), rel=1e-9, abs=1e-9)

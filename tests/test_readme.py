@@ -35,7 +35,10 @@ def test_the_examples_give_what_they_show(page: str, least: int) -> None:
 
 @pytest.mark.slow
 def test_the_tutorial_works_as_it_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its commands one after the other, its calls, and its plot where matplotlib is there."""
+    """Its commands one after the other, its calls, and its plot where matplotlib is there.
+
+    The new package runs as plain Python, for which nothing needs to be compiled.
+    """
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(str(tmp_path))
     text = README.read_text()
@@ -45,6 +48,8 @@ def test_the_tutorial_works_as_it_stands(tmp_path: Path, monkeypatch: pytest.Mon
     for command in commands:
         done = CliRunner().invoke(main, shlex.split(command), catch_exceptions=False)
         assert done.exit_code == 0, done.output
+    if importlib.util.find_spec("numba"):
+        monkeypatch.setattr("numba.config.DISABLE_JIT", 1)
     calls, (plot,) = "\n".join(TUTORIAL.findall(text)), PLOT.findall(text)
     names: dict[str, object] = {}
     assert failures(calls, names) == (0, 7)

@@ -41,7 +41,7 @@ def demand_one_line(done: "subprocess.CompletedProcess[str]", part: str) -> None
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device")
 @pytest.mark.parametrize(
-    "command", ["list", "show hertz --latex", "--help", "--version", "show --help"]
+    "command", ["show hertz", "show hertz --latex", "--help", "--version", "show --help"]
 )
 def test_a_full_output(tmp_path: Path, command: str) -> None:
     part = "standard output cannot be written: No space left"
@@ -49,11 +49,11 @@ def test_a_full_output(tmp_path: Path, command: str) -> None:
 
 
 def test_a_closed_output(tmp_path: Path) -> None:
-    demand_one_line(derive(tmp_path, "list >&-"), "output is closed")
+    demand_one_line(derive(tmp_path, "show hertz >&-"), "output is closed")
 
 
 @pytest.mark.parametrize("errors", ["2>&-", "2>/dev/full"])
-@pytest.mark.parametrize("command", ["new nn 'x**2/(2*R)'", "show hertz", "list"])
+@pytest.mark.parametrize("command", ["new nn 'x**2/(2*R)'", "show hertz"])
 def test_a_closed_or_full_standard_error_changes_nothing(
     tmp_path: Path, command: str, errors: str
 ) -> None:
@@ -95,7 +95,7 @@ def test_many_parameters(tmp_path: Path) -> None:
     demand_one_line(done, "has 150 parameters, and at most 40 are allowed")
 
 
-@pytest.mark.parametrize("command", ["show hertz", "list", "--help", "show --help"])
+@pytest.mark.parametrize("command", ["show hertz", "--help", "show --help"])
 def test_a_reader_that_has_seen_enough(tmp_path: Path, command: str) -> None:
     """The status is the one of a program that SIGPIPE ends: 128 + 13."""
     done = derive(tmp_path, f"{command}; echo $? >&2; }} | true", "{")

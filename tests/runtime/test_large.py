@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from generated.runtime.slip.zone import LARGE
+from generated.runtime.types import LARGE
 
 from .laws import flat_rounded, hertz, wedge
 from .test_moderate import state, zone

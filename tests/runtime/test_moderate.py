@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from generated.runtime.slip.zone import MODERATE, each_stick_zone
+from generated.runtime.slip.zone import each_stick_zone
+from generated.runtime.types import MODERATE
 
 from .laws import Case, hertz
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from generated.runtime.slip.threshold import each_closing_tension, each_tension_threshold
-from generated.runtime.slip.zone import MODERATE
+from generated.runtime.types import MODERATE
 
 from .laws import flat_rounded, hertz, wedge
 from .test_moderate import solved, state, zone

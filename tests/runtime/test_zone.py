@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from generated.runtime.slip import mixed
-from generated.runtime.slip.zone import FULL_STICK, LARGE, MIXED, MODERATE, NONE, SLIDING, UNSOLVED
+from generated.runtime.types import FULL_STICK, LARGE, MIXED, MODERATE, NONE, SLIDING, UNSOLVED
 
 from .laws import hertz
 from .test_moderate import solved, zone

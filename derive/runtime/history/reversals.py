@@ -43,11 +43,8 @@ import numpy as np
 from ..inverse import contact, contact_at_tilt
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, vector, whole
 from ..slip.shear import change_at
-from ..types import FEATURES
+from ..types import FEATURES, FULL_STICK, MODERATE
 from .path import SIGMA, M, P, Q
-
-MODERATE, FULL_STICK = 1.0, 5.0
-"""Codes of Regime."""
 
 IN_PHASE = 1e-9
 """Largest difference between sigma and k Q, relative to the largest sigma."""

@@ -23,16 +23,27 @@ import numpy as np
 
 from ..inverse import contact
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector, whole
-from ..types import Array
+from ..types import (
+    FULL_STICK,
+    LARGE,
+    MIXED,
+    NO_STICK,
+    NONE,
+    NOT_CLOSED,
+    OUT_OF_PHASE,
+    SLIDING,
+    UNSOLVED,
+    Array,
+)
 from .growth import narrowest
 from .large import large_zone
 from .locked import holds_load
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
 from .series import slip_zones
-from .zone import FULL_STICK, LARGE, MIXED, NONE, SLIDING, UNSOLVED, stick_zone
+from .zone import stick_zone
 
-OUT_OF_PHASE, NOT_CLOSED, NO_STICK, IN_ORDER = 7.0, 8.0, 10.0, -1.0
-"""Three more codes of Regime, and a code for a history without faults."""
+IN_ORDER = -1.0
+"""A code for a history without faults."""
 
 P, M, Q, SIGMA = range(4)
 """The rows of the loads."""

@@ -51,6 +51,7 @@ from ..kernels import (
     vector,
     whole,
 )
+from ..types import MIXED, UNSOLVED
 from .bounded import (
     FRICTION,
     GAIN,
@@ -82,7 +83,7 @@ from .tables import (
     table_place,
     tabled,
 )
-from .zone import MIXED, UNSOLVED, ends_of, stick_zone
+from .zone import ends_of, stick_zone
 
 TERMS = (16, 24, 36, 54)
 """Numbers of terms of the tables, in turn."""

@@ -20,21 +20,16 @@ from ..inverse import contact
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, truth, vector, whole
 from ..shared import shared
 from ..slip.growth import narrowest
-from ..types import FEATURES, ZONE
+from ..types import COMPUTED, FEATURES, FULL_STICK, NO_STICK, NONE, SLIDING, UNSOLVED, ZONE
 from .elements import TERMS, influence, inverse_of
 from .path import INSTANT, SIGMA, A, C, M, P, Q, notable_edges, path
 from .steps import (
     BOUND,
-    COMPUTED,
-    FULL_STICK,
     JUMP,
     KINK,
-    NONE,
     SHEAR,
-    SLIDING,
     SLIP,
     SLIP_OF_STEP,
-    UNSOLVED,
     WORK_OF_STEP,
     at_point,
     mesh_for,
@@ -45,9 +40,6 @@ from .steps import (
 
 TOTAL, RANGE, ALWAYS, FIRST_SHEAR, DENSITY = range(5)
 """Rows of the results of a cycle on the elements."""
-
-NO_STICK = 10.0
-"""Another code of Regime: every point slips at some time, though the contact never slides."""
 
 FEWEST = 64
 """Elements of the first mesh.  On a mesh with k times as many, at least k steps are taken from one

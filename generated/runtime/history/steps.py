@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, kernel, matrix, real, results, truth, vector, whole
+from ..types import COMPUTED, NONE, SLIDING, UNSOLVED
 from .elements import (
     CENTRED,
     COSINE,
@@ -28,9 +29,6 @@ from .path import SIGMA, A, C, P, Q
 
 SHEAR, BOUND, STATUS, SLIP, SLIP_OF_STEP, WORK_OF_STEP = range(6)
 """Rows of the state."""
-
-NONE, SLIDING, FULL_STICK, UNSOLVED, COMPUTED = 0.0, 4.0, 5.0, 6.0, 9.0
-"""Codes of Regime."""
 
 OUTSIDE = 0.1
 """An element of which no larger part is outside the contact counts as in contact."""

@@ -23,10 +23,11 @@ import math
 from typing import Any
 
 from ..kernels import LAW, kernel, matrix, real, results, truth, vector
+from ..types import FULL_STICK, LARGE
 from .bounded import beside, change, friction, oriented, sense_of
 from .growth import load_path
 from .moderate import LOAD, A, C
-from .shear import FULL_STICK, LARGE, LEVEL
+from .shear import LEVEL
 
 POINTS = 200
 """Points at which the limits are integrated."""

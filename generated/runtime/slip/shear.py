@@ -41,10 +41,8 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, LOOP, kernel, opened, real, results, truth, vector
+from ..types import FULL_STICK, LARGE, MIXED, MODERATE
 from .bounded import ZONE, beside, change, friction, oriented, sense_of
-
-MODERATE, LARGE, MIXED, FULL_STICK = 1.0, 2.0, 3.0, 5.0
-"""Codes of Regime."""
 
 LEVEL = 2
 """Level of the quadrature, sufficient however close a kink is to the stick zone."""

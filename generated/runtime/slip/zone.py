@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, LOOP, kernel, matrix, opened, results, truth, vector
+from ..types import FULL_STICK, LARGE, MIXED, MODERATE, NONE, SLIDING, UNSOLVED
 from .bounded import oriented, sense_of
 from .growth import (
     grows,
@@ -32,9 +33,6 @@ from .newton import EPS
 
 LEAST_RESOLVED = 1e-6
 """Largest shift of an edge due to rounding of the tilt, relative to the width."""
-
-NONE, MODERATE, LARGE, MIXED, SLIDING, FULL_STICK, UNSOLVED = (float(code) for code in range(7))
-"""Codes of Regime."""
 
 
 @kernel(matrix(LAW, vector, vector))
