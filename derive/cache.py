@@ -199,7 +199,7 @@ def distrusted() -> str:
     """Why the selected directory is not used, and what to do; "" if it is used."""
     folder = _selected()
     try:
-        fault = _fault(folder.stat()) if folder else ""
+        fault = _fault_of(folder) if folder else ""
     except OSError:  # a missing directory will belong to the user
         return ""
     if not folder or not fault:
@@ -207,7 +207,13 @@ def distrusted() -> str:
     remedy = f"run `export {VARIABLE}=~/derive-cache` to use a directory of your own"
     if fault == _OPEN:
         remedy = f"run `chmod go-w {shlex.quote(str(folder))}`"
-    return f"{folder}: nothing is kept in this directory, because {fault}: {remedy}"
+    return f"{folder}: nothing is kept there, because {fault}: {remedy}"
+
+
+def _fault_of(folder: Path) -> str:
+    return (
+        _fault(folder.stat()) if folder.is_dir() or not folder.exists() else "it is not a directory"
+    )
 
 
 def _selected() -> Path | None:

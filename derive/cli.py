@@ -10,6 +10,7 @@ import os
 import shlex
 import signal
 import sys
+import unicodedata
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -20,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from derive.errors import BadLimit, BadPage, EmptyPath, NotProven, UserError
+from derive.errors import BadLimit, BadPage, BadPath, NotProven, UserError
 from derive.limit import DEFAULT
 from derive.parallel import end
 from derive.terminal import (
@@ -46,17 +47,17 @@ FELL_SHORT, BAD_INPUT, INTERRUPTED, UNREAD = 1, 2, 130, 141
 
 
 class _Path(click.ParamType):
-    """A path that is not empty, since an empty one would mean the current directory."""
+    """A path without control characters that is not empty, which would mean the current folder."""
 
     name = "path"
 
     def convert(
         self, value: str, param: click.Parameter | None, context: click.Context | None
     ) -> Path:
-        if not value:
+        if not value or any(unicodedata.category(character) == "Cc" for character in value):
             is_option = isinstance(param, click.Option)
             assert param is not None
-            raise EmptyPath(param.opts[0] if is_option else param.human_readable_name)
+            raise BadPath(param.opts[0] if is_option else param.human_readable_name, value)
         return Path(value)
 
 

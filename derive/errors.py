@@ -394,15 +394,17 @@ class OpenUnits(UserError):
 
 
 @dataclass
-class EmptyPath(UserError):
-    """An option or an argument is an empty path."""
+class BadPath(UserError):
+    """An option or an argument is an empty path, or one with a control character."""
 
     given_as: str
+    path: str
 
     @property
     def message(self) -> str:
-        """State which path is empty."""
-        return f"{self.given_as} is an empty path: give the path of a file or directory"
+        """State what is wrong with the path."""
+        wrong = f"{self.path!a} contains a control character" if self.path else "is an empty path"
+        return f"{self.given_as} {wrong}: give the path of a file or directory"
 
 
 @dataclass

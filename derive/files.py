@@ -26,14 +26,19 @@ def bytes_of(path: Path, most: int) -> bytes:
         if path.exists() and not path.is_file():
             what = "a directory" if path.is_dir() else "a device or a pipe, not a regular file"
             raise Unreadable(f"is {what}")
-        with path.open("rb") as file:
-            found = file.read(most + 1)
+        with open(path, "rb", opener=_without_waiting) as file:
+            found = file.read(most + 1) or b""
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise Unreadable(f"cannot be read ({why})") from error
     if len(found) > most:
         raise Unreadable(f"is larger than {most} bytes")
     return found
+
+
+def _without_waiting(path: str, flags: int) -> int:
+    """Open a file whose reading never waits, such as a log of the system would wait for its end."""
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def demand_writable(path: Path) -> None:

@@ -60,6 +60,8 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
         If the name is not allowed.
     BadUnit
         If the unit cannot be read.
+    ValueError
+        If the meaning is not printable text.
 
     Examples
     --------
@@ -71,6 +73,8 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
         raise BadName("parameter", str(name), "cannot be used as a name")
     if _is_taken(name):
         raise BadName("parameter", name, f"is reserved by the theory{_FOR_X * (name == x.name)}")
+    if not isinstance(meaning, str) or not meaning.isprintable():
+        raise ValueError(f"the meaning of {name!r} must be text in one line; got {meaning!a:.60}")
     parse_unit(unit)
     return Parameter(name, meaning, unit)
 

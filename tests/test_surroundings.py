@@ -124,6 +124,13 @@ def test_a_device_without_end(tmp_path: Path, command: str) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.skipif(not os.access("/proc/kmsg", os.R_OK), reason="only root may read this log")
+@pytest.mark.parametrize("command", ["check {}", "edge {} --f 0.5"])
+def test_a_log_whose_reading_would_wait(tmp_path: Path, command: str) -> None:
+    done = derive(tmp_path, command.format("/proc/kmsg"))
+    assert done.returncode == 2 and done.stderr.count("\n") == 1
+
+
 def test_a_key_of_5000_parts(tmp_path: Path) -> None:
     (tmp_path / "claims.toml").write_text(f"{'.'.join('a' * 5000)} = 1\n")
     done = derive(tmp_path, "check claims.toml")
@@ -137,7 +144,7 @@ def test_a_cache_that_others_may_write_to(tmp_path: Path) -> None:
     (tmp_path / "open").chmod(0o777)
     done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="open")
     assert done.returncode == 0
-    assert "nothing is kept in this directory, because other users can write to it" in done.stderr
+    assert "nothing is kept there, because other users can write to it" in done.stderr
     assert list((tmp_path / "open").iterdir()) == []
     advised = re.search("`(.*)`", done.stderr)
     assert advised is not None
@@ -145,3 +152,5 @@ def test_a_cache_that_others_may_write_to(tmp_path: Path) -> None:
     done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="open")
     assert "nothing is kept" not in done.stderr
     assert len(list((tmp_path / "open").iterdir())) == 1
+    done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="/dev/full")
+    assert "because it is not a directory" in done.stderr
