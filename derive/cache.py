@@ -22,7 +22,6 @@ import ast
 import json
 import os
 import re
-import shlex
 import stat
 import sys
 from collections.abc import Iterator
@@ -205,8 +204,6 @@ def distrusted() -> str:
     if not folder or not fault:
         return ""
     remedy = f"run `export {VARIABLE}=~/derive-cache` to use a directory of your own"
-    if fault == _OPEN:
-        remedy = f"run `chmod go-w {shlex.quote(str(folder))}`"
     return f"{folder}: nothing is kept there, because {fault}: {remedy}"
 
 

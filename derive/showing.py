@@ -9,6 +9,7 @@ on time and memory.
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from shutil import get_terminal_size
 from textwrap import fill
 from typing import Any, TypeVar
 
@@ -29,8 +30,8 @@ from derive.terminal import status
 
 Shown = TypeVar("Shown")
 
-_WIDTH = 96
-"""Width of the lines of a series, in columns."""
+_WIDEST, _NARROWEST = 96, 20
+"""Limits of the width of the lines of a series, in columns."""
 
 _LOWER = "give a lower order with --slip, or a simpler profile"
 
@@ -134,7 +135,7 @@ def slip_of(asked: tuple[str, int], report: Report) -> str:
 def _folded(line: str) -> str:
     return fill(
         line,
-        _WIDTH,
+        max(min(get_terminal_size((_WIDEST, 0)).columns, _WIDEST), _NARROWEST),
         subsequent_indent="    ",
         break_long_words=False,
         break_on_hyphens=False,

@@ -1,7 +1,6 @@
 """Hostile surroundings: one clear line each, the right exit status, and nothing is lost."""
 
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -146,11 +145,9 @@ def test_a_cache_that_others_may_write_to(tmp_path: Path) -> None:
     assert done.returncode == 0
     assert "nothing is kept there, because other users can write to it" in done.stderr
     assert list((tmp_path / "open").iterdir()) == []
-    advised = re.search("`(.*)`", done.stderr)
-    assert advised is not None
-    subprocess.run(["sh", "-c", advised[1]], cwd=tmp_path, check=True)
-    done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="open")
+    assert "run `export DERIVE_CACHE=~/derive-cache` to use a directory of your own" in done.stderr
+    done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="own")
     assert "nothing is kept" not in done.stderr
-    assert len(list((tmp_path / "open").iterdir())) == 1
+    assert len(list((tmp_path / "own").iterdir())) == 1
     done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="/dev/full")
     assert "because it is not a directory" in done.stderr

@@ -70,7 +70,7 @@ def evidence(finding: Finding) -> str:
     if finding.diagnosis:
         parts.append(finding.diagnosis)
     if finding.tried:
-        parts.append(f"corrections tried: {_tried(finding.tried)}")
+        parts.append(_tried(finding.tried))
     if finding.stopped:
         parts.append(f"the search for a correction: {finding.stopped}")
     return "; ".join(parts)
@@ -87,7 +87,7 @@ def _changes(repair: Repair) -> str:
 
 
 def _tried(tried: Counter[str]) -> str:
-    return ", ".join(f"{count} of kind {kind}" for kind, count in sorted(tried.items()))
+    return f"{tried.total()} corrections tried"
 
 
 def summary(findings: Sequence[Finding]) -> str:
@@ -141,7 +141,9 @@ def remarks(findings: Iterable[Finding]) -> list[tuple[Finding, str]]:
 def _remarks_on_failure(finding: Finding) -> list[str]:
     """Return the corrected equation or how the two sides differ, and where the claim is true."""
     stopped = f"the search for a correction: {finding.stopped}" if finding.stopped else ""
-    told = corrected(finding) or finding.diagnosis or ("" if stopped else "no correction was found")
+    found = corrected(finding)
+    told = f"correct is {found}" if found else finding.diagnosis
+    told = told or ("" if stopped else "no correction was found")
     return list(filter(None, (told, stopped, finding.partly)))
 
 
@@ -346,7 +348,7 @@ def _convention(finding: Finding) -> list[str]:
 
 
 def _correction(finding: Finding) -> list[str]:
-    tried = [f"corrections tried: {_tried(finding.tried)}"] if finding.tried else []
+    tried = [_tried(finding.tried)] if finding.tried else []
     diagnosis = [finding.diagnosis] if finding.diagnosis else []
     if finding.stopped:
         return [*diagnosis, f"the search for a correction: {finding.stopped}"]

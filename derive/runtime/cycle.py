@@ -282,8 +282,10 @@ def closing_tension(
     """Changes in bulk tension at which the moderate solution closes one slip zone.
 
         upper: load(m, c) = (P_1 + P_2)/2 - dQ/(2 f),
-            dsigma = 4 f E* ((alpha_1 + alpha_2)/2 - tilt(m, c)), c that of the smaller contact
-        lower: the same with load(a, n) and tilt(a, n), a that of the smaller contact
+            dsigma = 4 f E* ((alpha_1 + alpha_2)/2 - tilt(m, c)),
+            where c is the right edge of the smaller contact
+        lower: the same with load(a, n) and tilt(a, n),
+            where a is the left edge of the smaller contact
 
     Parameters
     ----------

@@ -159,7 +159,7 @@ class History(NamedTuple):
         NONE, UNSOLVED.
     q, slip : ndarray or None
         Shear traction [Pa] and accumulated forward slip [m] at x; the axes of x follow that of
-        time.  None without x.
+        time.  None if x is not given.
     work : ndarray
         Work dissipated by friction up to this instant [J/m].
     error : ndarray
@@ -198,9 +198,9 @@ class SteadyCycle(NamedTuple):
         A code of Regime: that of stick_zone where m and n are exact, otherwise COMPUTED, NO_STICK,
         SLIDING, ...
     slip_range : ndarray or None
-        The slip range in a cycle at x [m]; None without x.
+        The slip range in a cycle at x [m]; None if x is not given.
     q : ndarray or None
-        Shear traction at x at the first instant [Pa]; None without x.
+        Shear traction at x at the first instant [Pa]; None if x is not given.
     work : ndarray
         Work dissipated by friction in one cycle [J/m].
     rounds : ndarray of int

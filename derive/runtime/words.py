@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-COMPILING = "compiling the solver of this call, once per installation: up to half a minute ..."
+COMPILING = "compiling the solver of this call, once per installation: up to a minute ..."
 """What a user reads while kernels are compiled."""
 
 RAISES = """\
