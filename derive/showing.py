@@ -9,8 +9,6 @@ on time and memory.
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from shutil import get_terminal_size
-from textwrap import fill
 from typing import Any, TypeVar
 
 import click
@@ -26,12 +24,9 @@ from derive.notation import text_of
 from derive.parallel import Report, in_processes
 from derive.proof import prove
 from derive.sheet import FormulaSheet
-from derive.terminal import status
+from derive.terminal import folded, status
 
 Shown = TypeVar("Shown")
-
-_WIDEST, _NARROWEST = 96, 20
-"""Limits of the width of the lines of a series, in columns."""
 
 _LOWER = "give a lower order with --slip, or a simpler profile"
 
@@ -129,17 +124,7 @@ def slip_of(asked: tuple[str, int], report: Report) -> str:
         for number, term in enumerate(found, 1)
     ]
     lines = [*zones, *(f"{s} = {text_of(value)}" for s, value in known.items()), _SENSES]
-    return "\n".join(_folded(line) for line in lines)
-
-
-def _folded(line: str) -> str:
-    return fill(
-        line,
-        max(min(get_terminal_size((_WIDEST, 0)).columns, _WIDEST), _NARROWEST),
-        subsequent_indent="    ",
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
+    return "\n".join(folded(line) for line in lines)
 
 
 def _grouped(term: Expr, leading: Sequence[Expr]) -> Expr:

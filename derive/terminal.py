@@ -10,7 +10,8 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
-from shutil import which
+from shutil import get_terminal_size, which
+from textwrap import fill
 from threading import Timer
 
 import click
@@ -121,6 +122,22 @@ def output(what: RenderableType, columns: str = "") -> None:
 def output_table(what: RenderableType) -> None:
     """Print a table or a sheet; COLUMNS also applies to pipes."""
     output(what, os.environ.get("COLUMNS", ""))
+
+
+_WIDEST, _NARROWEST = 96, 20
+"""Limits of the width of a line of text, in columns."""
+
+
+def folded(line: str) -> str:
+    """A line of text, which continues with an indent where it is too long; obeys COLUMNS."""
+    columns = get_terminal_size((_WIDEST, 0)).columns
+    return fill(
+        line,
+        max(min(columns, _WIDEST), _NARROWEST),
+        subsequent_indent="    ",
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 def is_narrow() -> bool:

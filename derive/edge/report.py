@@ -11,6 +11,7 @@ import numpy as np
 from derive.edge.find import SIDES, Findings, FittedEdge
 from derive.edge.table import Step
 from derive.prose import prose
+from derive.terminal import folded
 
 HEAD = ("load step", "edge", "x [mm]", "K_N [MPa/sqrt(mm)]", "L_N [MPa/mm**(3/2)]", "nodes")
 ZONES = (
@@ -108,10 +109,10 @@ def as_text(findings: Findings) -> str:
     for e in findings.edges:
         where = f"{e.step}, " if e.step else ""
         if e.pressure.why:
-            parts.append(f"  {where}{e.side}: {e.pressure.why}")
-    parts += [f"  {side}, shear: {fit.why}" for side, fit in findings.shears if fit.why]
+            parts.append(folded(f"  {where}{e.side}: {e.pressure.why}"))
+    parts += [folded(f"  {side}, shear: {fit.why}") for side, fit in findings.shears if fit.why]
     if findings.notes:
-        parts += ["", "Notes", *(f"  {note}" for note in findings.notes)]
+        parts += ["", "Notes", *(folded(f"  {note}") for note in findings.notes)]
     return "\n".join(parts)
 
 
