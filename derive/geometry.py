@@ -60,8 +60,6 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
         If the name is not allowed.
     BadUnit
         If the unit cannot be read.
-    ValueError
-        If the meaning is not printable text.
 
     Examples
     --------
@@ -73,8 +71,6 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
         raise BadName("parameter", str(name), "cannot be used as a name")
     if _is_taken(name):
         raise BadName("parameter", name, f"is reserved by the theory{_FOR_X * (name == x.name)}")
-    if not isinstance(meaning, str) or not meaning.isprintable():
-        raise ValueError(f"the meaning of {name!r} must be text in one line; got {meaning!a:.60}")
     parse_unit(unit)
     return Parameter(name, meaning, unit)
 
@@ -168,6 +164,11 @@ def without_x(name: str, parameters: Iterable[str]) -> BadProfile:
     )
 
 
+def _encodable(text: str) -> str:
+    """A text that can be written to a file: bytes that are no UTF-8 become question marks."""
+    return text.encode("utf-8", "replace").decode()
+
+
 @dataclass(frozen=True, eq=False)
 class Geometry:
     """One body that is pressed on a half-plane, given by its profile g(x) before loading.
@@ -215,8 +216,8 @@ class Geometry:
             if isinstance(symbol, Parameter):
                 if symbol.name in (q.name for q in plain.values()):
                     raise BadName("parameter", symbol.name, "has two meanings in one geometry")
-                quantity = Quantity(Symbol(symbol.name, positive=True), symbol.meaning, symbol.unit)
-                plain[symbol] = quantity
+                real = Symbol(symbol.name, positive=True)
+                plain[symbol] = Quantity(real, _encodable(symbol.meaning), symbol.unit)
             elif symbol != x:
                 raise _stranger(self.name, str(symbol))
         object.__setattr__(self, "g", given.xreplace({p: q.symbol for p, q in plain.items()}))
@@ -242,7 +243,7 @@ class Geometry:
     def described(self, description: str) -> "Geometry":
         """The same body with the docstring of its file as its description."""
         twin = copy(self)
-        object.__setattr__(twin, "description", description)
+        object.__setattr__(twin, "description", _encodable(description))
         return twin
 
     @property

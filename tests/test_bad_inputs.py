@@ -54,7 +54,6 @@ NO_GEOMETRY = [
     (f"{HEAD}E_star = parameter('E_star', 'modulus')", "'E_star' is reserved by the theory"),
     (f"{HEAD}geometry = Geometry('two words', g=x**2 / R)", "'two words'"),
     (f"{HEAD}geometry = Geometry('class', g=x**2 / R)", "'class'"),
-    (f"{HEAD}r = parameter('r', 'two\\nlines', unit='m')", "must be text in one line"),
     (f"{HEAD}geometry = Geometry('[red]:bug:[/]', g=x**2 / R)", "'[red]:bug:[/]'"),
 ]
 """Files without a body, and a part of the message."""
@@ -72,7 +71,6 @@ PLACES = [
     (["new", "body", "x**2/R", "--out", ""], "--out is an empty path"),
     (["check", "no\x1b[31m\nsuch"], r"FILE 'no\x1b[31m\nsuch' contains a control character"),
     (["new", "body", "x**2/R", "--out", "q\nz"], r"--out 'q\nz' contains a control character"),
-    (["new", "other", "x**2/R", "--meaning", "R=\udcff"], r"--meaning 'R=\udcff'"),
     (["show", "mine.py"], "a directory"),
     (["show", "a" * 300], "a" * 300),
     (["show", "sphere"], "there is no geometry 'sphere'; the library contains"),

@@ -89,10 +89,6 @@ def draft(wanted: Wanted) -> Draft:
         _demand_known(option, given, tuple(names(tree)))
     for unit in wanted.units.values():
         _demand_plain(unit)
-    for name, meaning in wanted.meanings.items():
-        if not meaning.isprintable():
-            why = "it contains a character that cannot be printed"
-            raise BadOption("--meaning", f"{name}={meaning}", why)
     if "x" not in (node.name for node in walk(tree) if isinstance(node, Name)):
         raise without_x(wanted.name, names(tree))
     if (count := len(names(tree))) > _MOST_PARAMETERS:
