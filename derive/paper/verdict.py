@@ -167,7 +167,8 @@ def _nowhere_real(claim: Claim, judged: Judged) -> Finding | None:
     finding, _ = _attempted(claim, lambda look: _mended(claim, judged, look))
     if finding is None or (finding.repair is None and finding.convention is None):
         return None
-    why = f"one side is real at all {judged.one_side_real} points and the other at none of them"
+    real = judged.one_side_real
+    why = f"one side is real at all {real} points, but the other is real at none of them"
     return replace(finding, judged=Judged(Verdict.FAILS, why))
 
 

@@ -247,7 +247,7 @@ def instants(
     stress: Measure | None = None,
     **constants: float,
 ) -> Sequence[Axes]:
-    """Draw shear traction and friction bounds at chosen instants, and below them the slip so far.
+    """Draw shear traction and friction bounds at chosen instants, with the accumulated slip below.
 
     Slip is drawn only where the bodies touch at all instants, because they move freely elsewhere.
 
