@@ -266,13 +266,6 @@ def tension_threshold(
     Threshold
         lower [Pa], upper [Pa].  NaN unless such a range exists.  Also NaN where dQ < 0, and where
         dQ >= f (P_1 + P_2), which means sliding.
-
-    Raises
-    ------
-    TypeError
-        If a contact is not a Contact, or another argument is not a real number or an array of them.
-    ValueError
-        If the shapes of the arguments do not broadcast.
     """
     return _tensions(asked, "tension_threshold", first, second, dQ, f, E_star)
 
@@ -298,13 +291,6 @@ def closing_tension(
         lower [Pa], upper [Pa].  Slip reverses before the zone closes; see tension_threshold.
         NaN unless the reduced load is positive.  Also NaN where dQ < 0, and where
         dQ >= f (P_1 + P_2), which means sliding.
-
-    Raises
-    ------
-    TypeError
-        If a contact is not a Contact, or another argument is not a real number or an array of them.
-    ValueError
-        If the shapes of the arguments do not broadcast.
     """
     return _tensions(asked, "closing_tension", first, second, dQ, f, E_star)
 
@@ -459,13 +445,6 @@ def shear_change(
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
         different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
-
-    Raises
-    ------
-    TypeError
-        If a contact is not a Contact, or another argument is not a real number or an array of them.
-    ValueError
-        If the shapes of the arguments do not broadcast.
     """
     return _at_places(asked, "shear_change", x, first, second, dQ, dsigma, f, E_star)
 
@@ -495,13 +474,6 @@ def slip_range(
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
         or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
-
-    Raises
-    ------
-    TypeError
-        If a contact is not a Contact, or another argument is not a real number or an array of them.
-    ValueError
-        If the shapes of the arguments do not broadcast.
     """
     return _at_places(asked, "slip_range", x, first, second, dQ, dsigma, f, E_star)
 
@@ -574,13 +546,6 @@ def shear(
         in the same direction, and dQ <= 2 Q.  If the shear load is larger in magnitude at the lower
         end, reverse all signs, including that of q.  Also NaN where Q < 0 or dQ < 0, and where
         Q >= f P, which means sliding.
-
-    Raises
-    ------
-    TypeError
-        If a contact is not a Contact, or another argument is not a real number or an array of them.
-    ValueError
-        If the shapes of the arguments do not broadcast.
     """
     given = {"x": x, **_edges_of(contact, "contact"), "Q": Q, "sigma": sigma}
     given |= {"dQ": dQ, "dsigma": dsigma}

@@ -15,10 +15,15 @@ RAISES = """\
 Raises
 ------
 TypeError
-    If an argument is not a real number or an array of real numbers.
+    If {}.
 ValueError
     If the shapes of the arguments do not broadcast."""
 """The errors of a function whose docstring lists no others."""
+
+NO_NUMBER = "an argument is not a real number or an array of real numbers"
+NO_CONTACT = (
+    "a contact is not a Contact, or another argument is not a real number or an array of them"
+)
 
 
 def with_errors(text: str) -> str:
@@ -26,7 +31,9 @@ def with_errors(text: str) -> str:
     if "\nRaises\n" in text:
         return text
     before, *behind = re.split(r"(\n\n(?:Notes|Examples)\n)", text, maxsplit=1)
-    return "".join([before, "\n\n", RAISES, *behind])
+    takes_contacts = re.search(r"^\w+ : Contact$", before.split("\nReturns\n")[0], re.M)
+    raises = RAISES.format(NO_CONTACT if takes_contacts else NO_NUMBER)
+    return "".join([before, "\n\n", raises, *behind])
 
 
 def documented(function: Function) -> Function:
