@@ -5,14 +5,13 @@ g(x) = b**2*(cosh(x/b) - 1)/R, from derive/geometries/catenary.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle, pieces
-from .runtime.body import Asked, Body, Example, Parameter
+from .runtime.body import Asked, Body, Example
 from .runtime.cycle import integrated
 from .runtime.history import public
 from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
@@ -28,7 +27,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
-from .runtime.words import documented
+from .runtime.words import Parameter, documented
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -37,7 +36,13 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-@documented
+_OWN = (
+    Parameter("R", "relative radius of curvature at the apex", "m"),
+    Parameter("b", "length scale over which the flanks steepen", "m"),
+)
+
+
+@documented(*_OWN)
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -46,15 +51,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
         g'(xi) = b*sinh(xi/b)/R
 
     Checked numerically to 40 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  From derive/geometries/catenary.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    R, b : array_like
-        Relative radius of curvature at the apex [m]; length scale over which the flanks steepen
-        [m].
+    g(x).  Evaluated by quadrature.
 
     Returns
     -------
@@ -70,7 +67,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     return integrated(asked, a=a, c=c)
 
 
-@documented
+@documented(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -78,16 +75,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = cosh(xi/b)/R
 
-    Checked numerically to 40 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.  From
-    derive/geometries/catenary.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; relative radius of curvature at the apex [m]; length scale over
-        which the flanks steepen [m].
+    Checked numerically to 40 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
+    Evaluated by quadrature.
 
     Returns
     -------
@@ -103,7 +92,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -113,15 +102,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
         g''(xi) = cosh(xi/b)/R
 
     Checked numerically to 40 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
-    quadrature.  From derive/geometries/catenary.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; relative radius of curvature at the apex [m]; length scale over
-        which the flanks steepen [m].
+    quadrature.  Evaluated by quadrature.
 
     Returns
     -------
@@ -137,7 +118,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -147,17 +128,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
         g''(xi) = cosh(xi/b)/R
 
     Checked numerically to 40 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  From derive/geometries/catenary.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; relative radius of curvature at the apex [m]; length scale over
-        which the flanks steepen [m].
+    g(x).  Evaluated by quadrature.
 
     Returns
     -------
@@ -173,7 +144,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     return integrated(asked, x=x, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -185,16 +156,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
     K_N_left: checked numerically to 40 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), next to the left edge.  K_N_right: checked numerically to 40 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  From
-    derive/geometries/catenary.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; relative radius of curvature at the apex [m]; length scale over
-        which the flanks steepen [m].
+    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
+    by quadrature.
 
     Returns
     -------
@@ -210,7 +173,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -226,16 +189,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
     L_N_left: checked numerically to 37 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), next to the left edge.  L_N_right: checked numerically to 37 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  From
-    derive/geometries/catenary.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; relative radius of curvature at the apex [m]; length scale over
-        which the flanks steepen [m].
+    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
+    by quadrature.
 
     Returns
     -------
@@ -317,8 +272,7 @@ _BODY = Body(
         (1.5295769601907596, 0.45122039256069024, 0.36135401690532115),
         (1.3172448330064785, 1.015573997247141),
     ),
-    Parameter("R", "relative radius of curvature at the apex", "m"),
-    Parameter("b", "length scale over which the flanks steepen", "m"),
+    *_OWN,
 )
 
 contact = _BODY.bound(cycle.contact)

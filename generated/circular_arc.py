@@ -5,14 +5,13 @@ g(x) = R - sqrt(R**2 - x**2), from derive/geometries/circular_arc.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle, pieces
-from .runtime.body import Asked, Body, Example, Parameter
+from .runtime.body import Asked, Body, Example
 from .runtime.cycle import integrated
 from .runtime.history import public
 from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
@@ -28,7 +27,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
-from .runtime.words import documented
+from .runtime.words import Parameter, documented
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -37,7 +36,10 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-@documented
+_OWN = (Parameter("R", "radius of the arc", "m"),)
+
+
+@documented(*_OWN)
 def tilt(a: Array, c: Array, *, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -46,14 +48,7 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
         g'(xi) = xi/sqrt(R**2 - xi**2)
 
     Checked numerically to 40 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  From derive/geometries/circular_arc.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    R : array_like
-        Radius of the arc [m].
+    g(x).  Evaluated by quadrature.
 
     Returns
     -------
@@ -69,7 +64,7 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     return integrated(asked, a=a, c=c)
 
 
-@documented
+@documented(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -77,15 +72,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    Checked numerically to 40 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.  From
-    derive/geometries/circular_arc.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; radius of the arc [m].
+    Checked numerically to 40 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
+    Evaluated by quadrature.
 
     Returns
     -------
@@ -101,7 +89,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -111,14 +99,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Checked numerically to 40 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
-    quadrature.  From derive/geometries/circular_arc.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; radius of the arc [m].
+    quadrature.  Evaluated by quadrature.
 
     Returns
     -------
@@ -134,7 +115,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -144,16 +125,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Checked numerically to 40 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  From derive/geometries/circular_arc.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; radius of the arc [m].
+    g(x).  Evaluated by quadrature.
 
     Returns
     -------
@@ -169,7 +141,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return integrated(asked, x=x, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -181,15 +153,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
 
     K_N_left: checked numerically to 40 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), next to the left edge.  K_N_right: checked numerically to 40 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  From
-    derive/geometries/circular_arc.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; radius of the arc [m].
+    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
+    by quadrature.
 
     Returns
     -------
@@ -205,7 +170,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -221,15 +186,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
 
     L_N_left: checked numerically to 35 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), next to the left edge.  L_N_right: checked numerically to 34 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  From
-    derive/geometries/circular_arc.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; radius of the arc [m].
+    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
+    by quadrature.
 
     Returns
     -------
@@ -326,7 +284,7 @@ _BODY = Body(
         (0.38688897215418216, 0.059718468244543424, 0.18924985208366807),
         (1.0943332784547632, 0.7117939001227501),
     ),
-    Parameter("R", "radius of the arc", "m"),
+    *_OWN,
 )
 
 contact = _BODY.bound(cycle.contact)

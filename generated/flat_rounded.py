@@ -5,7 +5,6 @@ g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -25,7 +24,7 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Example, Parameter
+from .runtime.body import Body, Example
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
 from .runtime.segments import edge_angle, end_pressure, involute, second_term, segment, third_term
@@ -41,12 +40,19 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
 __all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
 __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
+
+
+_OWN = (
+    Parameter("R", "radius of the rounded edges", "m"),
+    Parameter("b", "half-width of the flat", "m"),
+)
 
 
 @shared
@@ -59,7 +65,7 @@ def _angles(a: Array, c: Array, b: Array) -> tuple[Array, ...]:
     return h, t_1, t_3, exists
 
 
-@elementwise
+@elementwise(*_OWN)
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -68,14 +74,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    R, b : array_like
-        Radius of the rounded edges [m]; half-width of the flat [m].
+    symbols, see the module.
 
     Returns
     -------
@@ -97,21 +96,14 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     return where(exists, alpha, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols, see the module.
 
     Returns
     -------
@@ -128,7 +120,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return where(exists, P, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -136,15 +128,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
             segment(t_3)))/(32*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
-    see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols, see the
+    module.
 
     Returns
     -------
@@ -165,7 +150,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return where(exists, M, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -175,16 +160,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
+    symbols, see the module.
 
     Returns
     -------
@@ -206,7 +182,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     return where(exists, p, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -214,14 +190,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
         K_N_right = E_star*sqrt(h)*(t_3/2 + sin(t_3)/2 + segment(t_1/2))/(pi*R)
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
+    For symbols, see the module.
 
     Returns
     -------
@@ -239,7 +208,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -257,15 +226,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
         k_right = Piecewise((1/R, b - c < 0), (0, b + c > 0), (1/R, True))
 
     Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
-    the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, b : array_like
-        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols, see the module.
 
     Returns
     -------
@@ -374,8 +335,7 @@ _BODY = Body(
         (2.532460069661756, 1.8243082395558003, 0.36787499024188197),
         (0.8813504753998516, 0.7533784903745364),
     ),
-    Parameter("R", "radius of the rounded edges", "m"),
-    Parameter("b", "half-width of the flat", "m"),
+    *_OWN,
 )
 
 contact = _BODY.bound(cycle.contact)

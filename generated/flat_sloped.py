@@ -5,7 +5,6 @@ g(x) = phi*Max(0, -b + Abs(x)), from derive/geometries/flat_sloped.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
@@ -18,7 +17,7 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Example, Parameter
+from .runtime.body import Body, Example
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
 from .runtime.history import public
 from .runtime.segments import edge_angle, root_ratio
@@ -34,6 +33,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -42,7 +42,13 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-@elementwise
+_OWN = (
+    Parameter("b", "half-width of the flat", "m"),
+    Parameter("phi", "slope of the sides", "rad"),
+)
+
+
+@elementwise(*_OWN)
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -52,14 +58,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    b, phi : array_like
-        Half-width of the flat [m]; slope of the sides [rad].
+    symbols, see the module.
 
     Returns
     -------
@@ -79,7 +78,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     return where(exists, alpha, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -87,14 +86,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
             b)*Max(0, -b + c))/2
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols, see the module.
 
     Returns
     -------
@@ -114,7 +106,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return where(exists, P, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -122,15 +114,8 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
             E_star*phi*sqrt(Max(0, a + b)*Max(0, -b + c))*(a - 2*b - c)/8
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
-    see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols, see the
+    module.
 
     Returns
     -------
@@ -152,7 +137,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return where(exists, M, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -163,16 +148,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
+    symbols, see the module.
 
     Returns
     -------
@@ -198,7 +174,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     return where(exists, p, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -211,14 +187,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         cot_2 = root_ratio(-b + c, a + b)
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
+    For symbols, see the module.
 
     Returns
     -------
@@ -242,7 +211,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -255,15 +224,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         cot_2 = root_ratio(-b + c, a + b)
 
     Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
-    the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols, see the module.
 
     Returns
     -------
@@ -362,8 +323,7 @@ _BODY = Body(
         (0.2780931089239487, 0.08356983169296148, 0.017592318481269825),
         (0.030690219910185234, 0.05011691924917253),
     ),
-    Parameter("b", "half-width of the flat", "m"),
-    Parameter("phi", "slope of the sides", "rad"),
+    *_OWN,
 )
 
 contact = _BODY.bound(cycle.contact)

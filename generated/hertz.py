@@ -5,7 +5,6 @@ g(x) = x**2/(2*R), from derive/geometries/hertz.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Example, Parameter
+from .runtime.body import Body, Example
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
 from .runtime.shared import by_position
@@ -28,6 +27,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -36,7 +36,10 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-@elementwise
+_OWN = (Parameter("R", "relative radius of curvature", "m"),)
+
+
+@elementwise(*_OWN)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -47,17 +50,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
 
     a and c: proven symbolically and checked numerically to 49 digits at 24 points.  Routes:
     substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked numerically
-    to 49 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).  From
-    derive/geometries/hertz.py.
-
-    Parameters
-    ----------
-    P : array_like
-        Normal load per unit depth [N/m].
-    M : array_like, optional
-        Moment per unit depth, M = -int p x dx [N].
-    E_star, R : array_like
-        Composite modulus [Pa]; relative radius of curvature [m].
+    to 49 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).
 
     Returns
     -------
@@ -79,7 +72,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -87,16 +80,6 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
         c = -R*alpha + 2*sqrt(P*R/(pi*E_star))
 
     Checked numerically to 49 digits at 24 points.  Route: substituted into load(a, c), tilt(a, c).
-    From derive/geometries/hertz.py.
-
-    Parameters
-    ----------
-    P : array_like
-        Normal load per unit depth [N/m].
-    alpha : array_like, optional
-        Tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad].
-    E_star, R : array_like
-        Composite modulus [Pa]; relative radius of curvature [m].
 
     Returns
     -------
@@ -116,22 +99,14 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def tilt(a: Array, c: Array, *, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
         alpha = (a - c)/(2*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
-    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  From
-    derive/geometries/hertz.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    R : array_like
-        Relative radius of curvature [m].
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
 
     Returns
     -------
@@ -149,21 +124,14 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     return where(exists, alpha, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = pi*E_star*(a + c)**2/(16*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/hertz.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; relative radius of curvature [m].
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.
 
     Returns
     -------
@@ -181,22 +149,14 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return where(exists, P, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
         M = pi*E_star*(a - c)*(a + c)**2/(32*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
-    derive/geometries/hertz.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; relative radius of curvature [m].
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.
 
     Returns
     -------
@@ -214,24 +174,14 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return where(exists, M, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
         p = E_star*sqrt((a + x)*(c - x))/(2*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
-    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  From
-    derive/geometries/hertz.py.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; relative radius of curvature [m].
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
 
     Returns
     -------
@@ -250,7 +200,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return where(exists, p, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -258,14 +208,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         K_N_right = E_star*sqrt(a + c)/(2*R)
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    From derive/geometries/hertz.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; relative radius of curvature [m].
 
     Returns
     -------
@@ -285,7 +227,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -293,15 +235,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         L_N_right = -E_star/(4*R*sqrt(a + c))
 
     Proven symbolically and checked numerically to 48 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  From
-    derive/geometries/hertz.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R : array_like
-        Composite modulus [Pa]; relative radius of curvature [m].
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.
 
     Returns
     -------
@@ -370,7 +304,7 @@ _BODY = Body(
         (1.227184630308513, 0.30679615757712825, 0.25),
         (0.7905694150420949, 0.7905694150420949),
     ),
-    Parameter("R", "relative radius of curvature", "m"),
+    *_OWN,
 )
 
 stick_zone = _BODY.bound(cycle.stick_zone)

@@ -5,14 +5,13 @@ g(x) = phi*sqrt(b**2 + x**2), from derive/geometries/hyperbola.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle, pieces
-from .runtime.body import Asked, Body, Example, Parameter
+from .runtime.body import Asked, Body, Example
 from .runtime.cycle import integrated
 from .runtime.history import public
 from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
@@ -28,7 +27,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
-from .runtime.words import documented
+from .runtime.words import Parameter, documented
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -37,7 +36,13 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-@documented
+_OWN = (
+    Parameter("b", "length scale over which the flanks bend", "m"),
+    Parameter("phi", "slope of the flanks far from the apex", "rad"),
+)
+
+
+@documented(*_OWN)
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -46,14 +51,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
         g'(xi) = phi*xi/sqrt(b**2 + xi**2)
 
     Checked numerically to 38 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  From derive/geometries/hyperbola.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    b, phi : array_like
-        Length scale over which the flanks bend [m]; slope of the flanks far from the apex [rad].
+    g(x).  Evaluated by quadrature.
 
     Returns
     -------
@@ -69,7 +67,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     return integrated(asked, a=a, c=c)
 
 
-@documented
+@documented(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -77,16 +75,8 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
-    Checked numerically to 36 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.  From
-    derive/geometries/hyperbola.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; length scale over which the flanks bend [m]; slope of the flanks far
-        from the apex [rad].
+    Checked numerically to 36 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
+    Evaluated by quadrature.
 
     Returns
     -------
@@ -102,7 +92,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -112,15 +102,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Checked numerically to 36 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
-    quadrature.  From derive/geometries/hyperbola.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; length scale over which the flanks bend [m]; slope of the flanks far
-        from the apex [rad].
+    quadrature.  Evaluated by quadrature.
 
     Returns
     -------
@@ -136,7 +118,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -146,17 +128,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Checked numerically to 38 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  From derive/geometries/hyperbola.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; length scale over which the flanks bend [m]; slope of the flanks far
-        from the apex [rad].
+    g(x).  Evaluated by quadrature.
 
     Returns
     -------
@@ -172,7 +144,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     return integrated(asked, x=x, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -184,16 +156,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     K_N_left: checked numerically to 36 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), next to the left edge.  K_N_right: checked numerically to 36 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  From
-    derive/geometries/hyperbola.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; length scale over which the flanks bend [m]; slope of the flanks far
-        from the apex [rad].
+    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
+    by quadrature.
 
     Returns
     -------
@@ -209,7 +173,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -225,16 +189,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     L_N_left: checked numerically to 36 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), next to the left edge.  L_N_right: checked numerically to 36 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  From
-    derive/geometries/hyperbola.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; length scale over which the flanks bend [m]; slope of the flanks far
-        from the apex [rad].
+    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
+    by quadrature.
 
     Returns
     -------
@@ -320,8 +276,7 @@ _BODY = Body(
         (0.10312984565808857, 0.019315211296009945, 0.0160853671625117),
         (0.04277441054746589, 0.05912752938677417),
     ),
-    Parameter("b", "length scale over which the flanks bend", "m"),
-    Parameter("phi", "slope of the flanks far from the apex", "rad"),
+    *_OWN,
 )
 
 contact = _BODY.bound(cycle.contact)

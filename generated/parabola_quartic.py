@@ -5,7 +5,6 @@ g(x) = x**2/(2*R) + x**4/(4*L**3), from derive/geometries/parabola_quartic.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Example, Parameter
+from .runtime.body import Body, Example
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
 from .runtime.shared import by_position
@@ -28,6 +27,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -36,23 +36,20 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-@elementwise
+_OWN = (
+    Parameter("L", "distance from the apex at which the quartic term alone has slope one", "m"),
+    Parameter("R", "relative radius of curvature at the apex", "m"),
+)
+
+
+@elementwise(*_OWN)
 def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
         alpha = (a - c)*(8*L**3 + 5*R*a**2 + 2*R*a*c + 5*R*c**2)/(16*L**3*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
-    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  From
-    derive/geometries/parabola_quartic.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    L, R : array_like
-        Distance from the apex at which the quartic term alone has slope one [m]; relative radius of
-        curvature at the apex [m].
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
 
     Returns
     -------
@@ -74,23 +71,14 @@ def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
     return where(exists, alpha, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = pi*E_star*(a + c)**2*(16*L**3 + 15*R*a**2 - 18*R*a*c + 15*R*c**2)/(256*L**3*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  From
-    derive/geometries/parabola_quartic.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, R : array_like
-        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
-        [m]; relative radius of curvature at the apex [m].
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.
 
     Returns
     -------
@@ -112,23 +100,14 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     return where(exists, P, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
         M = pi*E_star*(a - c)*(a + c)**2*(8*L**3 + 9*R*a**2 - 6*R*a*c + 9*R*c**2)/(256*L**3*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
-    derive/geometries/parabola_quartic.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, R : array_like
-        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
-        [m]; relative radius of curvature at the apex [m].
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.
 
     Returns
     -------
@@ -151,7 +130,7 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     return where(exists, M, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -159,18 +138,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
             4*R*c*x + 8*R*x**2)/(16*L**3*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
-    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  From
-    derive/geometries/parabola_quartic.py.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, R : array_like
-        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
-        [m]; relative radius of curvature at the apex [m].
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
 
     Returns
     -------
@@ -202,7 +170,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
     return where(exists, p, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -210,15 +178,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         K_N_right = E_star*sqrt(a + c)*(8*L**3 + 3*R*a**2 - 6*R*a*c + 15*R*c**2)/(16*L**3*R)
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    From derive/geometries/parabola_quartic.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, R : array_like
-        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
-        [m]; relative radius of curvature at the apex [m].
 
     Returns
     -------
@@ -238,7 +197,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -246,16 +205,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         L_N_right = E_star*(-8*L**3 + 5*R*a**2 - 26*R*a*c - 55*R*c**2)/(32*L**3*R*sqrt(a + c))
 
     Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  From
-    derive/geometries/parabola_quartic.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, R : array_like
-        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
-        [m]; relative radius of curvature at the apex [m].
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.
 
     Returns
     -------
@@ -328,8 +278,7 @@ _BODY = Body(
         (2.895388737134148, 1.083373931444234, 0.8515625),
         (3.5328570734693616, 2.0505394202654337),
     ),
-    Parameter("L", "distance from the apex at which the quartic term alone has slope one", "m"),
-    Parameter("R", "relative radius of curvature at the apex", "m"),
+    *_OWN,
 )
 
 contact = _BODY.bound(cycle.contact)

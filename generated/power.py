@@ -5,14 +5,13 @@ g(x) = L**(1 - k)*Abs(x)**k/k, from derive/geometries/power.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle, pieces
-from .runtime.body import Asked, Body, Example, Parameter
+from .runtime.body import Asked, Body, Example
 from .runtime.cycle import integrated
 from .runtime.history import public
 from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
@@ -28,7 +27,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
-from .runtime.words import documented
+from .runtime.words import Parameter, documented
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -37,7 +36,13 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-@documented
+_OWN = (
+    Parameter("L", "distance from the apex at which the flanks have slope one", "m"),
+    Parameter("k", "exponent, greater than one", "-"),
+)
+
+
+@documented(*_OWN)
 def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -46,15 +51,7 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
         g'(xi) = Piecewise((-L**(1 - k)*(-xi)**(k - 1), xi < 0), (L**(1 - k)*xi**(k - 1), True))
 
     Checked numerically to 39 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  From derive/geometries/power.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    L, k : array_like
-        Distance from the apex at which the flanks have slope one [m]; exponent, greater than one
-        [-].
+    g(x).  Evaluated by quadrature.
 
     Returns
     -------
@@ -70,7 +67,7 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     return integrated(asked, a=a, c=c)
 
 
-@documented
+@documented(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -79,16 +76,8 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
         g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
             2)*(k - 1), True))
 
-    Checked numerically to 40 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.  From
-    derive/geometries/power.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, k : array_like
-        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m];
-        exponent, greater than one [-].
+    Checked numerically to 40 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
+    Evaluated by quadrature.
 
     Returns
     -------
@@ -104,7 +93,7 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -115,15 +104,7 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
             2)*(k - 1), True))
 
     Checked numerically to 40 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
-    quadrature.  From derive/geometries/power.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, k : array_like
-        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m];
-        exponent, greater than one [-].
+    quadrature.  Evaluated by quadrature.
 
     Returns
     -------
@@ -139,7 +120,7 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -150,17 +131,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
             2)*(k - 1), True))
 
     Checked numerically to 39 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  From derive/geometries/power.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, k : array_like
-        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m];
-        exponent, greater than one [-].
+    g(x).  Evaluated by quadrature.
 
     Returns
     -------
@@ -176,7 +147,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
     return integrated(asked, x=x, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -189,16 +160,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
 
     K_N_left: checked numerically to 39 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), next to the left edge.  K_N_right: checked numerically to 39 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  From
-    derive/geometries/power.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, k : array_like
-        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m];
-        exponent, greater than one [-].
+    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
+    by quadrature.
 
     Returns
     -------
@@ -214,7 +177,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@documented
+@documented(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -231,16 +194,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
 
     L_N_left: checked numerically to 36 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), next to the left edge.  L_N_right: checked numerically to 35 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  From
-    derive/geometries/power.py, evaluated by quadrature.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, L, k : array_like
-        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m];
-        exponent, greater than one [-].
+    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
+    by quadrature.
 
     Returns
     -------
@@ -326,8 +281,7 @@ _BODY = Body(
         (1.227184630308513, 0.30679615757712825, 0.25),
         (0.7905694150420948, 0.7905694150420948),
     ),
-    Parameter("L", "distance from the apex at which the flanks have slope one", "m"),
-    Parameter("k", "exponent, greater than one", "-"),
+    *_OWN,
     demands="k > 1",
 )
 

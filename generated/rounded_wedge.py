@@ -6,7 +6,6 @@ g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), fro
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -33,7 +32,7 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Example, Parameter
+from .runtime.body import Body, Example
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
 from .runtime.segments import (
@@ -58,12 +57,19 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
 __all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
 __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
+
+
+_OWN = (
+    Parameter("b", "half-width of the rounded apex", "m"),
+    Parameter("phi", "slope of the flanks", "rad"),
+)
 
 
 @shared
@@ -87,7 +93,7 @@ def _angles(a: Array, c: Array, b: Array) -> tuple[Array, ...]:
     return h, sin_1, cos_1, sin_2, cos_2, t_2, exists
 
 
-@elementwise
+@elementwise(*_OWN)
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -98,14 +104,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 
     Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    b, phi : array_like
-        Half-width of the rounded apex [m]; slope of the flanks [rad].
+    symbols, see the module.
 
     Returns
     -------
@@ -129,21 +128,14 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     return where(exists, alpha, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = E_star*h**2*phi*part_area(t_2, cos_1*sin_2 + cos_2*sin_1)/(16*b)
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols, see the module.
 
     Returns
     -------
@@ -160,7 +152,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return where(exists, P, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -168,15 +160,8 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
             c)*part_area(t_2, cos_1*sin_2 + cos_2*sin_1))/(32*b)
 
     Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
-    see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols, see the
+    module.
 
     Returns
     -------
@@ -200,7 +185,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return where(exists, M, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -211,16 +196,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
+    symbols, see the module.
 
     Returns
     -------
@@ -242,7 +218,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     return where(exists, p, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -250,14 +226,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         K_N_right = E_star*sqrt(h)*phi*part_weight(t_2, sin_1*sin_2)/(pi*b)
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
+    For symbols, see the module.
 
     Returns
     -------
@@ -275,7 +244,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -289,15 +258,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         k_right = Piecewise((0, b - c < 0), (phi/b, b + c > 0), (0, True))
 
     Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
-    the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, b, phi : array_like
-        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols, see the module.
 
     Returns
     -------
@@ -384,8 +345,7 @@ _BODY = Body(
         (0.297034806446537, 0.0787576276326532, 0.01651562621976474),
         (0.029585439168755424, 0.04558193729691981),
     ),
-    Parameter("b", "half-width of the rounded apex", "m"),
-    Parameter("phi", "slope of the flanks", "rad"),
+    *_OWN,
 )
 
 contact = _BODY.bound(cycle.contact)

@@ -5,7 +5,6 @@ g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geome
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -25,7 +24,7 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Example, Parameter
+from .runtime.body import Body, Example
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
 from .runtime.segments import edge_angle, end_pressure, involute, second_term, segment, third_term
@@ -41,12 +40,19 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
 __all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
 __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
+
+
+_OWN = (
+    Parameter("R_1", "relative radius of curvature on the left", "m"),
+    Parameter("R_2", "relative radius of curvature on the right", "m"),
+)
 
 
 @shared
@@ -59,7 +65,7 @@ def _angles(a: Array, c: Array) -> tuple[Array, ...]:
     return h, t_1, t_2, exists
 
 
-@elementwise
+@elementwise(*_OWN)
 def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -68,14 +74,7 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    R_1, R_2 : array_like
-        Relative radius of curvature on the left [m]; relative radius of curvature on the right [m].
+    symbols, see the module.
 
     Returns
     -------
@@ -97,22 +96,14 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     return where(exists, alpha, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = E_star*h**2*(segment(t_2)/R_2 + segment(t_1)/R_1)/16
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R_1, R_2 : array_like
-        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
-        curvature on the right [m].
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols, see the module.
 
     Returns
     -------
@@ -129,7 +120,7 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     return where(exists, P, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -137,16 +128,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
             segment(t_1)/R_1))/32
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
-    see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R_1, R_2 : array_like
-        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
-        curvature on the right [m].
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols, see the
+    module.
 
     Returns
     -------
@@ -170,7 +153,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     return where(exists, M, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -181,17 +164,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R_1, R_2 : array_like
-        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
-        curvature on the right [m].
+    symbols, see the module.
 
     Returns
     -------
@@ -213,7 +186,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     return where(exists, p, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -221,15 +194,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
         K_N_right = E_star*sqrt(h)*((t_2 + sin(t_2))/(2*R_2) + segment(t_1/2)/R_1)/pi
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R_1, R_2 : array_like
-        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
-        curvature on the right [m].
+    For symbols, see the module.
 
     Returns
     -------
@@ -251,7 +216,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -265,16 +230,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
         k_right = Piecewise((1/R_2, c > 0), (1/R_1, True))
 
     Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
-    the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R_1, R_2 : array_like
-        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
-        curvature on the right [m].
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols, see the module.
 
     Returns
     -------
@@ -356,8 +312,7 @@ _BODY = Body(
         (1.227184630308513, 0.3067961575771282, 0.25),
         (0.7905694150420948, 0.7905694150420948),
     ),
-    Parameter("R_1", "relative radius of curvature on the left", "m"),
-    Parameter("R_2", "relative radius of curvature on the right", "m"),
+    *_OWN,
 )
 
 contact = _BODY.bound(cycle.contact)

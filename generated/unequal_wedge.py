@@ -5,7 +5,6 @@ g(x) = Piecewise((-phi_1*x, x < 0), (phi_2*x, True)), from derive/geometries/une
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Example, Parameter
+from .runtime.body import Body, Example
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
 from .runtime.history import public
 from .runtime.shared import by_position
@@ -28,6 +27,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -36,7 +36,13 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-@elementwise
+_OWN = (
+    Parameter("phi_1", "slope of the left flank", "rad"),
+    Parameter("phi_2", "slope of the right flank", "rad"),
+)
+
+
+@elementwise(*_OWN)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -48,17 +54,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
 
     a and c: proven symbolically and checked numerically to 46 digits at 24 points.  Routes:
     substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked numerically
-    to 46 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).  From
-    derive/geometries/unequal_wedge.py.
-
-    Parameters
-    ----------
-    P : array_like
-        Normal load per unit depth [N/m].
-    M : array_like, optional
-        Moment per unit depth, M = -int p x dx [N].
-    E_star, phi_1, phi_2 : array_like
-        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
+    to 46 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).
 
     Returns
     -------
@@ -91,7 +87,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Array
 ) -> Contact:
@@ -101,16 +97,6 @@ def contact_at_tilt(
         c = -2*P*tan(pi*(alpha - phi_1)/(2*(phi_1 + phi_2)))/(E_star*(phi_1 + phi_2))
 
     Checked numerically to 48 digits at 24 points.  Route: substituted into load(a, c), tilt(a, c).
-    From derive/geometries/unequal_wedge.py.
-
-    Parameters
-    ----------
-    P : array_like
-        Normal load per unit depth [N/m].
-    alpha : array_like, optional
-        Tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad].
-    E_star, phi_1, phi_2 : array_like
-        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
 
     Returns
     -------
@@ -137,7 +123,7 @@ def contact_at_tilt(
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -145,15 +131,7 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
         theta_1 = 2*atan2(sqrt(c), sqrt(a))
 
     Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: I_0 from
-    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  From
-    derive/geometries/unequal_wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    phi_1, phi_2 : array_like
-        Slope of the left flank [rad]; slope of the right flank [rad].
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
 
     Returns
     -------
@@ -173,22 +151,14 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
     return where(exists, alpha, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = E_star*sqrt(a*c)*(phi_1 + phi_2)/2
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  From
-    derive/geometries/unequal_wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi_1, phi_2 : array_like
-        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.
 
     Returns
     -------
@@ -206,22 +176,14 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
     return where(exists, P, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
         M = E_star*sqrt(a*c)*(a - c)*(phi_1 + phi_2)/8
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
-    derive/geometries/unequal_wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi_1, phi_2 : array_like
-        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.
 
     Returns
     -------
@@ -239,7 +201,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
     return where(exists, M, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -249,17 +211,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
         v_1 = a*(c - x)
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
-    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  From
-    derive/geometries/unequal_wedge.py.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi_1, phi_2 : array_like
-        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
 
     Returns
     -------
@@ -280,7 +232,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     return where(exists, p, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -288,14 +240,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
         K_N_right = E_star*sqrt(a*c/(a + c))*(phi_1 + phi_2)/(pi*c)
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    From derive/geometries/unequal_wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi_1, phi_2 : array_like
-        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
 
     Returns
     -------
@@ -315,7 +259,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -323,15 +267,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
         L_N_right = E_star*sqrt(a*c)*(2*a + 3*c)*(phi_1 + phi_2)/(6*pi*c**2*(a + c)**(3/2))
 
     Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  From
-    derive/geometries/unequal_wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi_1, phi_2 : array_like
-        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.
 
     Returns
     -------
@@ -400,8 +336,7 @@ _BODY = Body(
         (0.15309310892394862, 0.019136638615493577, 0.01602355421224372),
         (0.041093629604099985, 0.06164044440614998),
     ),
-    Parameter("phi_1", "slope of the left flank", "rad"),
-    Parameter("phi_2", "slope of the right flank", "rad"),
+    *_OWN,
 )
 
 stick_zone = _BODY.bound(cycle.stick_zone)

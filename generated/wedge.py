@@ -5,7 +5,6 @@ g(x) = phi*Abs(x), from derive/geometries/wedge.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Example, Parameter
+from .runtime.body import Body, Example
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
 from .runtime.history import public
 from .runtime.shared import by_position
@@ -28,6 +27,7 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -36,7 +36,10 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-@elementwise
+_OWN = (Parameter("phi", "slope of the flanks", "rad"),)
+
+
+@elementwise(*_OWN)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -47,17 +50,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
 
     a and c: proven symbolically and checked numerically to 44 digits at 24 points.  Routes:
     substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked numerically
-    to 48 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).  From
-    derive/geometries/wedge.py.
-
-    Parameters
-    ----------
-    P : array_like
-        Normal load per unit depth [N/m].
-    M : array_like, optional
-        Moment per unit depth, M = -int p x dx [N].
-    E_star, phi : array_like
-        Composite modulus [Pa]; slope of the flanks [rad].
+    to 48 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).
 
     Returns
     -------
@@ -87,7 +80,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -95,16 +88,6 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
         c = -P*tan(pi*(alpha - phi)/(4*phi))/(E_star*phi)
 
     Checked numerically to 48 digits at 24 points.  Route: substituted into load(a, c), tilt(a, c).
-    From derive/geometries/wedge.py.
-
-    Parameters
-    ----------
-    P : array_like
-        Normal load per unit depth [N/m].
-    alpha : array_like, optional
-        Tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad].
-    E_star, phi : array_like
-        Composite modulus [Pa]; slope of the flanks [rad].
 
     Returns
     -------
@@ -134,7 +117,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -142,15 +125,7 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
         theta_1 = 2*atan2(sqrt(c), sqrt(a))
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: I_0 from
-    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  From
-    derive/geometries/wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    phi : array_like
-        Slope of the flanks [rad].
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
 
     Returns
     -------
@@ -168,21 +143,14 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     return where(exists, alpha, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = E_star*phi*sqrt(a*c)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi : array_like
-        Composite modulus [Pa]; slope of the flanks [rad].
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.
 
     Returns
     -------
@@ -200,22 +168,14 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     return where(exists, P, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
         M = E_star*phi*sqrt(a*c)*(a - c)/4
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
-    derive/geometries/wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi : array_like
-        Composite modulus [Pa]; slope of the flanks [rad].
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.
 
     Returns
     -------
@@ -233,7 +193,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     return where(exists, M, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -243,17 +203,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
         v_1 = a*(c - x)
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
-    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  From
-    derive/geometries/wedge.py.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi : array_like
-        Composite modulus [Pa]; slope of the flanks [rad].
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
 
     Returns
     -------
@@ -274,7 +224,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     return where(exists, p, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -282,14 +232,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
         K_N_right = 2*E_star*phi*sqrt(a*c/(a + c))/(pi*c)
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    From derive/geometries/wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi : array_like
-        Composite modulus [Pa]; slope of the flanks [rad].
 
     Returns
     -------
@@ -309,7 +251,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -317,15 +259,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
         L_N_right = E_star*phi*sqrt(a*c)*(2*a + 3*c)/(3*pi*c**2*(a + c)**(3/2))
 
     Proven symbolically and checked numerically to 45 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  From
-    derive/geometries/wedge.py.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, phi : array_like
-        Composite modulus [Pa]; slope of the flanks [rad].
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.
 
     Returns
     -------
@@ -394,7 +328,7 @@ _BODY = Body(
         (0.15309310892394862, 0.019136638615493577, 0.01602355421224372),
         (0.041093629604099985, 0.06164044440614998),
     ),
-    Parameter("phi", "slope of the flanks", "rad"),
+    *_OWN,
 )
 
 stick_zone = _BODY.bound(cycle.stick_zone)

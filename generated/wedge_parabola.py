@@ -5,7 +5,6 @@ g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/we
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
 constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
-E_star is the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -26,7 +25,7 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Example, Parameter
+from .runtime.body import Body, Example
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
 from .runtime.history import public
 from .runtime.segments import (
@@ -50,12 +49,19 @@ from .runtime.types import (
     StickZone,
     Threshold,
 )
+from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
 __all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
 __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
+
+
+_OWN = (
+    Parameter("R", "relative radius of curvature on the right", "m"),
+    Parameter("phi", "slope of the left flank", "rad"),
+)
 
 
 @shared
@@ -67,7 +73,7 @@ def _angles(a: Array, c: Array) -> tuple[Array, ...]:
     return h, t_2, exists
 
 
-@elementwise
+@elementwise(*_OWN)
 def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -76,14 +82,7 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
 
     Proven symbolically and checked numerically to 48 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    R, phi : array_like
-        Relative radius of curvature on the right [m]; slope of the left flank [rad].
+    symbols, see the module.
 
     Returns
     -------
@@ -101,22 +100,14 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     return where(exists, alpha, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = E_star*phi*sqrt(Max(0, a)*Max(0, c))/2 + E_star*h**2*segment(t_2)/(16*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, phi : array_like
-        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
-        flank [rad].
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols, see the module.
 
     Returns
     -------
@@ -135,7 +126,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     return where(exists, P, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -143,16 +134,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
             - c)*segment(t_2))/(32*R)
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
-    see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, phi : array_like
-        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
-        flank [rad].
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols, see the
+    module.
 
     Returns
     -------
@@ -171,7 +154,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     return where(exists, M, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -182,17 +165,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
-    symbols and source, see the module.
-
-    Parameters
-    ----------
-    x : array_like
-        Position along the interface, positive to the right [m].
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, phi : array_like
-        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
-        flank [rad].
+    symbols, see the module.
 
     Returns
     -------
@@ -215,7 +188,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     return where(exists, p, np.nan)
 
 
-@elementwise
+@elementwise(*_OWN)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -225,15 +198,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
         cot_1 = root_ratio(c, a)
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    For symbols and source, see the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, phi : array_like
-        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
-        flank [rad].
+    For symbols, see the module.
 
     Returns
     -------
@@ -257,7 +222,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
-@elementwise
+@elementwise(*_OWN)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
@@ -274,16 +239,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
         k_right = Piecewise((1/R, c > 0), (0, True))
 
     Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
-    the module.
-
-    Parameters
-    ----------
-    a, c : array_like
-        Edges of the contact at x = -a and x = c [m].
-    E_star, R, phi : array_like
-        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
-        flank [rad].
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols, see the module.
 
     Returns
     -------
@@ -385,8 +341,7 @@ _BODY = Body(
         (0.5349368773455335, -0.028927208895312008, -0.2103601777229599),
         (0.11859881717662224, 0.621995779826847),
     ),
-    Parameter("R", "relative radius of curvature on the right", "m"),
-    Parameter("phi", "slope of the left flank", "rad"),
+    *_OWN,
 )
 
 contact = _BODY.bound(cycle.contact)

@@ -1,5 +1,7 @@
 """Prints one generated function: its signature, its docstring with equations and proofs, its code.
 
+The runtime adds the sections for arguments and errors, which are the same in all functions.
+
 In:  a proven FormulaSheet and a Function of the contract.
 Out: Python source, not yet formatted.
 """
@@ -22,15 +24,11 @@ from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.proof.verdict import Proof, Verdict
-from derive.runtime.body import sentence
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
 from derive.units import Dimension, dimension_of
 
 LINE = 100
-
-OF_E_STAR = ", 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain"
-"""What the docstring of a module, but not those of its functions, says about the modulus."""
 
 _width = Symbol("h")
 """The contact width as a plain name, used in the conditions that the code checks."""
@@ -44,8 +42,11 @@ def inside_quotes(text: str) -> str:
 class FunctionText:
     """The text of one function that has a formula."""
 
-    def __init__(self, sheet: FormulaSheet, function: Function, source: str) -> None:
-        self.sheet, self.function, self.source = sheet, function, source
+    note = ""
+    """What the docstring says after the proofs."""
+
+    def __init__(self, sheet: FormulaSheet, function: Function) -> None:
+        self.sheet, self.function = sheet, function
         self.keywords = function.keywords(sheet)
         self.outputs, self.conditions = function.outputs(sheet), function.conditions(sheet)
         self.example = example_of(sheet, self.conditions, function.geometric)
@@ -64,7 +65,8 @@ class FunctionText:
     @property
     def text(self) -> str:
         """The whole function."""
-        return "\n".join(["@elementwise", self._head, *self._code])
+        own = "*_OWN" if self.function.geometric else ""
+        return "\n".join([f"@elementwise({own})", self._head, *self._code])
 
     @property
     def _head(self) -> str:
@@ -132,31 +134,11 @@ class FunctionText:
             lines += textwrap.wrap(
                 equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
             )
-        lines += ["", *textwrap.wrap(f"{self._proofs}  {self._origin}", LINE - 4)]
-        lines += ["", "Parameters", "----------", *self._given]
+        lines += ["", *textwrap.wrap(f"{self._proofs}{self.note}", LINE - 4)]
         kind, fields = self._returns
         lines += ["", "Returns", "-------", kind, *_indented(f"{fields}; {self._existence}")]
         lines += ["", "Examples", "--------", *self._doctest]
         return f'"""{inside_quotes(chr(10).join(lines))}\n"""'
-
-    @property
-    def _given(self) -> Iterator[str]:
-        """The arguments and their meanings; both edges share one entry, and so do all keywords."""
-        quantities = self.sheet.geometry.quantities
-        for symbol in self.function.arguments:
-            q = quantities[str(symbol)]
-            if symbol == a:
-                yield "a, c : array_like"
-                yield from _indented(f"Edges of the contact at x = -a and x = c [{q.unit}].")
-            elif symbol != c:
-                yield f"{q.name} : array_like{', optional' * (symbol == self.function.optional)}"
-                yield from _indented(sentence(f"{q.meaning} [{q.unit}]"))
-        if self.keywords:
-            yield f"{', '.join(map(str, self.keywords))} : array_like"
-            law = [quantities[str(symbol)] for symbol in self.keywords]
-            names = (q.meaning.removesuffix(OF_E_STAR) for q in law)
-            listed = (f"{name} [{q.unit}]" for name, q in zip(names, law, strict=True))
-            yield from _indented(sentence("; ".join(listed)))
 
     @property
     def _equations(self) -> Iterator[str]:
@@ -205,10 +187,6 @@ class FunctionText:
             (words,) = said.values()
             return words[0].upper() + words[1:]
         return "  ".join(f"{' and '.join(symbols[kind])}: {said[kind]}" for kind in said)
-
-    @property
-    def _origin(self) -> str:
-        return f"From {self.source}."
 
     @property
     def _doctest(self) -> Iterator[str]:

@@ -52,6 +52,8 @@ _IN_WORDS = (
 class IntegratedText(FunctionText):
     """The text of one function that is evaluated by quadrature."""
 
+    note = "  Evaluated by quadrature."
+
     def _made(self) -> Program:
         """No program: no formula is rewritten, and the trial of the module tests the rest."""
         return Program({})
@@ -63,16 +65,12 @@ class IntegratedText(FunctionText):
         passed = (*self.function.arguments, *self.function.constants)
         given = ", ".join(f"{s}={s}" for s in passed)
         asked = f"    asked = Asked(_BODY, {self.function.name}, dict({own}))"
-        return f"@documented\n{self._head}\n{asked}\n    return integrated(asked, {given})"
+        return f"@documented(*_OWN)\n{self._head}\n{asked}\n    return integrated(asked, {given})"
 
     @property
     def _equations(self) -> Iterator[str]:
         """The integrals that are evaluated; a closed formula, if there is one, is on the sheet."""
         yield from Integrals(self.sheet).lines(self.function.formulas)
-
-    @property
-    def _origin(self) -> str:
-        return f"From {self.source}, evaluated by quadrature."
 
 
 @dataclass(frozen=True)

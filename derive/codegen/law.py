@@ -118,8 +118,7 @@ class LawText:
         yield f"    dict({', '.join(f'{name}=_{name}' for name in NAMES)}),"
         yield f"    {self.source!r},"
         yield f"    Example{_example(self.sheet)},"
-        for q in self.sheet.geometry.parameters:
-            yield f"    Parameter({q.name!r}, {q.meaning!r}, {q.unit!r}),"
+        yield "    *_OWN,"
         if demands := " and ".join(map(str, self.sheet.geometry.slope.demands)):
             yield f"    demands={demands!r},"
         yield ")"

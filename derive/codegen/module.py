@@ -14,7 +14,7 @@ from ruff import find_ruff_bin
 
 from derive.codegen.contract import CONTRACT
 from derive.codegen.curve import CurveText
-from derive.codegen.function import LINE, OF_E_STAR, FunctionText, inside_quotes
+from derive.codegen.function import LINE, FunctionText, inside_quotes
 from derive.codegen.integrals import IntegratedText
 from derive.codegen.law import LawText
 from derive.codegen.mark import MARK
@@ -36,7 +36,7 @@ _KINDS = (
 
 _HELPERS = {
     "arrays": ("elementwise",),
-    "body": ("Asked", "Body", "Example", "Parameter"),
+    "body": ("Asked", "Body", "Example"),
     "cycle": ("integrated",),
     "elementary": ("LEAST", "MOST", "kink_logarithm", "where"),
     "history": ("public",),
@@ -45,7 +45,7 @@ _HELPERS = {
     "segments": tuple(n for n, f in vars(segments).items() if f in SHARED),
     "shared": ("by_position", "shared"),
     "types": ("Array", *_KINDS),
-    "words": ("documented",),
+    "words": ("Parameter", "documented"),
 }
 """The names that a module can import, by their module in runtime/."""
 
@@ -66,7 +66,7 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     bound = [*solved, *(function.__name__ for function in (*CYCLE, *EXPLAINING))]
     histories = [function.__name__ for function in HISTORIES]
     names = [*(f.name for f in CONTRACT), *bound[len(solved) :], *histories, *_KINDS]
-    code = "\n\n".join(_functions(sheet, source))
+    code = "\n\n".join([_parameters(sheet), *_functions(sheet, source)])
     cycle = "\n".join(
         [
             *(f"{name} = _BODY.bound(cycle.{name})" for name in bound),
@@ -93,12 +93,18 @@ from .runtime import {"cycle, pieces" if "pieces." in code else "cycle"}
 ''')
 
 
+def _parameters(sheet: FormulaSheet) -> str:
+    """The parameters of the body."""
+    own = ((q.name, q.meaning, q.unit) for q in sheet.geometry.parameters)
+    return f"_OWN = ({''.join(f'Parameter{each!r}, ' for each in own)})"
+
+
 def _heading(sheet: FormulaSheet, source: str) -> str:
     """The docstring of the module: the body, its profile, and the symbols of its formulas."""
     origin = f"g(x) = {text_of(sheet.geometry.g)}, from {source}."
     paragraphs = [textwrap.fill(sheet.geometry.title, LINE - 4)]
     paragraphs.append(textwrap.fill(origin, LINE, subsequent_indent=" " * 4))
-    paragraphs.append(textwrap.fill(f"{SHAPES}  E_star is the composite modulus{OF_E_STAR}.", LINE))
+    paragraphs.append(textwrap.fill(SHAPES, LINE))
     if carried_by(sheet) is Route.PARTS:
         lines = [
             textwrap.fill(line, LINE, initial_indent=" " * 4, subsequent_indent=" " * 8)
@@ -129,11 +135,11 @@ def _offered(names: list[str]) -> str:
 def full_stick_text(sheet: FormulaSheet) -> str:
     """The module of the functions that depend on no body; any sheet gives the same text."""
     made = (f for f in CONTRACT if not f.geometric)
-    code = "\n\n".join(FunctionText(sheet, f, "derive/theory/stick.py").text for f in made)
+    code = "\n\n".join(FunctionText(sheet, f).text for f in made)
     return formatted(f'''{MARK}
 """Full stick: the change in shear traction next to the edges of a contact that does not slip.
 
-{textwrap.fill(SHAPES, LINE)}
+{textwrap.fill(f"From derive/theory/stick.py.  {SHAPES}", LINE)}
 """
 
 import numpy as np
@@ -153,7 +159,7 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
     for function in CONTRACT:
         route = route_of(sheet, function)
         if function.geometric and route is not Route.SOLVED:
-            yield _TEXTS[route](sheet, function, source).text
+            yield _TEXTS[route](sheet, function).text
     made = CurveText if carried is Route.QUADRATURE else LawText
     yield made(sheet, source).text
 

@@ -105,6 +105,8 @@ _WORDS = "The shared symbols that are defined above, and whether such a contact 
 class SummedText(FunctionText):
     """The text of one function."""
 
+    note = "  For symbols, see the module."
+
     def _made(self) -> Program:
         return parts_program(self.sheet, {field: str(name) for field, name in self.function.fields})
 
@@ -123,10 +125,6 @@ class SummedText(FunctionText):
             yield f"{self.sheet[str(name)].symbol} = {text_of(self.program.outputs[field])}"
         for step in self.program.steps[len(common_steps(self.sheet)) :]:
             yield f"{step.symbol} = {text_of(step.expr)}"
-
-    @property
-    def _origin(self) -> str:
-        return "For symbols and source, see the module."
 
 
 def summed_steps(

@@ -7,13 +7,14 @@ so that the temporary arrays of one block stay in the processor's cache.
 import math
 from collections.abc import Callable, Mapping
 from functools import wraps
-from inspect import Parameter, signature
+from inspect import Parameter as Argument
+from inspect import signature
 from typing import Any, TypeVar
 
 import numpy as np
 
 from .chunks import any_lazy, demand_array, is_lazy, over_chunks
-from .words import documented
+from .words import Parameter, documented
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Numbers = dict[str, Any]
@@ -25,8 +26,10 @@ _FLOAT64 = np.dtype(np.float64)
 _OWN = (np.ndarray, np.generic)
 
 
-def elementwise(function: Function) -> Function:
+def elementwise(*own: Parameter) -> Callable[[Function], Function]:
     """Let a formula for float64 take numbers and arrays of any real type, long arrays in blocks.
+
+    own: the parameters of the body.
 
     Keyword-only arguments are constants of the material and the geometry: they become NaN unless
     positive and finite.  Dask arrays stay lazy.  Arrays of other libraries that follow NumPy's
@@ -36,26 +39,32 @@ def elementwise(function: Function) -> Function:
     The decorated function raises TypeError for an argument that is not a real number, and
     ValueError for shapes that do not broadcast; its docstring then says so.
     """
-    expected = signature(function)
-    positive = {n for n, p in expected.parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
-    names = tuple(n for n in expected.parameters if n not in positive)
-    defaults = {n: p.default for n, p in expected.parameters.items() if p.default is not p.empty}
-    kind = expected.return_annotation if hasattr(expected.return_annotation, "_fields") else None
 
-    @wraps(function)
-    def call(*args: Any, **kwargs: Any) -> Any:
-        given = defaults | dict(zip(names, args, strict=False)) | kwargs
-        if len(args) + len(kwargs) > len(given) or len(given) != len(expected.parameters):
-            expected.bind(*args, **kwargs)  # raises Python's own error
-        numbers = {name: real(given[name], name) for name in expected.parameters}
-        for name in positive:
-            numbers[name] = positive_or_nan(numbers[name])
-        if any_lazy(numbers.values()):
-            shape_of(numbers)
-            return over_chunks(call, numbers)
-        return evaluated(function, numbers, kind, BLOCK)
+    def made(function: Function) -> Function:
+        expected = signature(function)
+        arguments = expected.parameters.values()
+        positive = {p.name for p in arguments if p.kind is Argument.KEYWORD_ONLY}
+        names = tuple(p.name for p in arguments if p.name not in positive)
+        defaults = {p.name: p.default for p in arguments if p.default is not p.empty}
+        result = expected.return_annotation
+        kind = result if hasattr(result, "_fields") else None
 
-    return documented(call)  # type: ignore[return-value]
+        @wraps(function)
+        def call(*args: Any, **kwargs: Any) -> Any:
+            given = defaults | dict(zip(names, args, strict=False)) | kwargs
+            if len(args) + len(kwargs) > len(given) or len(given) != len(expected.parameters):
+                expected.bind(*args, **kwargs)  # raises Python's own error
+            numbers = {name: real(given[name], name) for name in expected.parameters}
+            for name in positive:
+                numbers[name] = positive_or_nan(numbers[name])
+            if any_lazy(numbers.values()):
+                shape_of(numbers)
+                return over_chunks(call, numbers)
+            return evaluated(function, numbers, kind, BLOCK)
+
+        return documented(*own)(call)  # type: ignore[return-value]
+
+    return made
 
 
 def evaluated(function: Callable[..., Any], numbers: Numbers, kind: Any, block: int) -> Any:

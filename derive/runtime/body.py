@@ -11,26 +11,19 @@ import threading
 from collections.abc import Callable, Mapping
 from functools import cache, cached_property
 from inspect import Parameter as Argument
-from inspect import cleandoc, signature
+from inspect import signature
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .arrays import Numbers, evaluated, is_foreign, positive_or_nan, real, shape_of
 from .chunks import any_lazy, is_lazy, over_chunks
+from .words import EXAMPLES, Parameter, documented
 
 _SHAPES = "Arguments broadcast; results are float64 of the broadcast shape."
 
 CASES = 65_536
 """Number of cases that are solved at once."""
-
-
-class Parameter(NamedTuple):
-    """A parameter of a body: its name, its meaning, its unit."""
-
-    name: str
-    meaning: str
-    unit: str
 
 
 class Example(NamedTuple):
@@ -108,39 +101,16 @@ class Body:
         call.__signature__ = signature(function).replace(parameters=arguments)  # type: ignore[attr-defined]
         call.__name__ = call.__qualname__ = function.__name__
         call.__module__ = self.functions["state"].__module__  # where Dask's workers find it
-        call.__doc__ = self._described(function, arguments)
-        return call
-
-    def _described(self, function: Callable[..., Any], arguments: list[Argument]) -> str:
-        """The function's docstring with its arguments and an example in the body's numbers."""
-        words = importlib.import_module(".words", __package__)
-        name = function.__name__
-        meanings = {p.name: f"{p.meaning} [{p.unit}]" for p in self.parameters}
-        meanings = words.MEANINGS | meanings | words.OTHERWISE.get(name, {})
-        lines = []
-        for a in arguments:
-            kind = words.TYPES.get(a.name, "array_like")
-            optional = "" if a.default is a.empty else ", optional"
-            lines += [f"{a.name} : {kind}{optional}", f"    {sentence(meanings[a.name])}"]
-        text = cleandoc(function.__doc__ or "").replace("{arguments}", "\n".join(lines))
+        call.__doc__ = function.__doc__
+        text = documented(*self.parameters)(call).__doc__ or ""
         if self.demands:
             text = re.sub(r"(parameters\s+are positive)", rf"\1, {self.demands}", text)
-        example = words.EXAMPLES[name].format_map(self.example.words)
-        text = words.with_errors(text)
         if "\nNotes\n" not in text:
             text += f"\n\nNotes\n-----\n{_SHAPES}"
-        return f"{text}\nDerived from {self.origin}.\n\nExamples\n--------\n{example}"
-
-
-def sentence(words: str) -> str:
-    """A phrase with a full stop, and a capital letter unless it begins with a name.
-
-    >>> sentence("half-width"), sentence("dQ falls"), sentence("E*, say")
-    ('Half-width.', 'dQ falls.', 'E*, say.')
-    """
-    first = words.split(maxsplit=1)[0].rstrip(",;").replace("-", "") if words.split() else ""
-    capital = words[:1].upper() if first.isalpha() and first.islower() else words[:1]
-    return f"{capital}{words[1:]}."
+        example = EXAMPLES[function.__name__].format_map(self.example.words)
+        text += f"\nDerived from {self.origin}.\n\nExamples\n--------\n{example}"
+        call.__doc__ = text
+        return call
 
 
 class Asked(NamedTuple):

@@ -1,9 +1,9 @@
-"""Words and examples for the docstrings of the functions in cycle.py when bound to one body."""
+"""Words for docstrings: the sections that all functions share, and examples of bound functions."""
 
 import re
 from collections.abc import Callable
-from inspect import cleandoc
-from typing import Any, TypeVar
+from inspect import cleandoc, signature
+from typing import Any, NamedTuple, TypeVar
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -25,20 +25,50 @@ NO_CONTACT = (
 )
 
 
-def with_errors(text: str) -> str:
-    """A docstring with RAISES before its notes and examples, unless it lists errors itself."""
-    if "\nRaises\n" in text:
-        return text
-    before, *behind = re.split(r"(\n\n(?:Notes|Examples)\n)", text, maxsplit=1)
-    takes_contacts = re.search(r"^\w+ : Contact$", before.split("\nReturns\n")[0], re.M)
-    raises = RAISES.format(NO_CONTACT if takes_contacts else NO_NUMBER)
-    return "".join([before, "\n\n", raises, *behind])
+class Parameter(NamedTuple):
+    """A parameter of a body: its name, its meaning, its unit."""
+
+    name: str
+    meaning: str
+    unit: str
 
 
-def documented(function: Function) -> Function:
-    """The function, with its errors in its docstring."""
-    function.__doc__ = with_errors(cleandoc(function.__doc__ or ""))
-    return function
+def documented(*own: Parameter) -> Callable[[Function], Function]:
+    """Complete the docstring of a function of a body that has these parameters.
+
+    The arguments come before the results.  Unless the docstring lists errors itself, RAISES comes
+    before its notes and examples.
+    """
+
+    def complete(function: Function) -> Function:
+        meanings = MEANINGS | {p.name: f"{p.meaning} [{p.unit}]" for p in own}
+        meanings |= OTHERWISE.get(function.__name__, {})
+        lines = ["Parameters", "----------"]
+        for a in signature(function).parameters.values():
+            optional = "" if a.default is a.empty else ", optional"
+            lines.append(f"{a.name} : {TYPES.get(a.name, 'array_like')}{optional}")
+            lines.append(f"    {sentence(' '.join(meanings[a.name].split()))}")
+        words, results, text = cleandoc(function.__doc__ or "").partition("Returns\n")
+        if "\nRaises\n" not in text:
+            takes_contacts = any(line.endswith(" : Contact") for line in lines)
+            raises = RAISES.format(NO_CONTACT if takes_contacts else NO_NUMBER)
+            text, *behind = re.split(r"(\n\n(?:Notes|Examples)\n)", text, maxsplit=1)
+            text = "".join([text, "\n\n", raises, *behind])
+        function.__doc__ = "".join([words, "\n".join(lines), "\n\n", results, text])
+        return function
+
+    return complete
+
+
+def sentence(words: str) -> str:
+    """A phrase with a full stop, and a capital letter unless it begins with a name.
+
+    >>> sentence("half-width"), sentence("dQ falls"), sentence("E*, say")
+    ('Half-width.', 'dQ falls.', 'E*, say.')
+    """
+    first = words.split(maxsplit=1)[0].rstrip(",;").replace("-", "") if words.split() else ""
+    capital = words[:1].upper() if first.isalpha() and first.islower() else words[:1]
+    return f"{capital}{words[1:]}."
 
 
 MEANINGS = {
@@ -49,6 +79,8 @@ MEANINGS = {
     "alpha": "tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad]",
     "c": "right edge of the contact at x = c [m]",
     "contact": "Contact under the constant normal loads",
+    "dM": "change in the moment over the same half-cycle [N]",
+    "dP": "change in the normal load over the same half-cycle [N/m]",
     "dQ": "change in the shear load over the half-cycle that raises it [N/m]",
     "da": "how much further out the left edge is than at the other end of the half-cycle [m]",
     "dc": "how much further out the right edge is than at the other end [m]",

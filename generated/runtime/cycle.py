@@ -97,10 +97,6 @@ def contact(asked: Asked, P: Array, M: Array = 0.0, *, E_star: Array) -> Contact
 
     The first two equations are solved for a and c by Newton's method.
 
-    Parameters
-    ----------
-    {arguments}
-
     Returns
     -------
     Contact
@@ -120,10 +116,6 @@ def contact_at_tilt(asked: Asked, P: Array, alpha: Array = 0.0, *, E_star: Array
         P = load(a, c), alpha = tilt(a, c)
 
     The equations are solved for a and c by Newton's method.
-
-    Parameters
-    ----------
-    {arguments}
 
     Returns
     -------
@@ -163,10 +155,6 @@ def stick_zone(
         large tension: int r sqrt((xi + m)/(xi - n)) dxi = dQ - pi dsigma (m + n)/8,
             int r sqrt((xi - n)/(xi + m)) dxi = dQ + pi dsigma (m + n)/8 over the slip zones,
             r = +/- f (p_1 + p_2), the upper sign on the left if dsigma > 0
-
-    Parameters
-    ----------
-    {arguments}
 
     Returns
     -------
@@ -214,10 +202,6 @@ def why(
 ) -> str:
     """Why a cycle has no stick zone, or what its regime means, in words.
 
-    Parameters
-    ----------
-    {arguments}
-
     Returns
     -------
     str
@@ -257,10 +241,6 @@ def tension_threshold(
 
         constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
 
-    Parameters
-    ----------
-    {arguments}
-
     Returns
     -------
     Threshold
@@ -280,10 +260,6 @@ def closing_tension(
             where c is the right edge of the smaller contact
         lower: the same with load(a, n) and tilt(a, n),
             where a is the left edge of the smaller contact
-
-    Parameters
-    ----------
-    {arguments}
 
     Returns
     -------
@@ -334,10 +310,6 @@ def slip_zones(
     pressure at each edge of both contacts, truncated after that power of d and then solved without
     further approximation.
 
-    Parameters
-    ----------
-    {arguments}
-
     Returns
     -------
     Edges
@@ -373,10 +345,6 @@ def slip_error(
     """Estimated error of the series for the slip zones: their change with one more term.
 
         |d(order + 1) - d(order)|
-
-    Parameters
-    ----------
-    {arguments}
 
     Returns
     -------
@@ -434,10 +402,6 @@ def shear_change(
         large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi in the stick zone,
             w = sqrt((xi + m)(xi - n)), negative on the left
 
-    Parameters
-    ----------
-    {arguments}
-
     Returns
     -------
     dq : ndarray
@@ -464,10 +428,6 @@ def slip_range(
 
         (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4
         moderate tension and constant loads: 2 f times the gap outside the contact [-m, n]
-
-    Parameters
-    ----------
-    {arguments}
 
     Returns
     -------
@@ -532,10 +492,6 @@ def shear(
     The fall of a whole half-cycle gives q at the lower end, from which it rises again by
     shear_change.
 
-    Parameters
-    ----------
-    {arguments}
-
     Returns
     -------
     q : ndarray
@@ -584,10 +540,6 @@ def march(
     Since the last reversal of the loads, at the least or the greatest Q, slip has grown as in a
     half-cycle that ends now: by stick_zone, or by slip_zones if an order is given.  This does not
     hold if the whole half-cycle is MIXED; then at most the state at its end is known.
-
-    Parameters
-    ----------
-    {arguments}
 
     Returns
     -------

@@ -345,4 +345,4 @@ def test_a_tangent_of_a_parameter_is_a_number(slope: Expr) -> None:
     steep = derive_sheet(Geometry("steep", slope * Abs(along)))
     found = {f.name: f for f in CONTRACT if f.available(steep)}
     for name in ("tilt", "load", "contact_at_tilt"):
-        FunctionText(steep, found[name], "")  # raises NotProven
+        FunctionText(steep, found[name])  # raises NotProven

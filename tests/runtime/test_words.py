@@ -7,10 +7,9 @@ from itertools import pairwise
 import pytest
 
 from derive.library import library, load_geometry
-from generated.runtime.body import sentence
 from generated.runtime.cycle import CYCLE, EXPLAINING, SOLVED
 from generated.runtime.history.public import HISTORIES
-from generated.runtime.words import EXAMPLES, MEANINGS
+from generated.runtime.words import EXAMPLES, MEANINGS, sentence
 from tests.runtime.test_body import bound
 
 
@@ -30,7 +29,6 @@ def test_docstrings_tell_of_every_argument(name: str) -> None:
                 meaning = f"{own[argument].meaning} [{own[argument].unit}]"
                 assert told[argument] == sentence(meaning)
                 assert p.kind is p.KEYWORD_ONLY and p.default is p.empty
-        assert "{arguments}" not in function.__doc__
         assert f"Derived from derive/geometries/{name}.py." in function.__doc__
 
 

@@ -64,10 +64,6 @@ def history(
     the second case the results are exact and the regime is MODERATE: dQ and dsigma are the changes
     since each reversal of the loads, or 2 Q and 2 sigma before the first one.
 
-    Parameters
-    ----------
-    {arguments}
-
     Returns
     -------
     History
@@ -148,10 +144,6 @@ def steady_cycle(
     of the points whose total slip in the last cycle, forward plus reverse, is below 1e-4 of the
     largest, or 5e-4 on fewer than 512 elements.  The shift of its ends at a threshold of 3e-3 is
     part of the error.
-
-    Parameters
-    ----------
-    {arguments}
 
     Returns
     -------
