@@ -201,7 +201,7 @@ def with_options(call: Callable[..., Any], options: Mapping[str, Any]) -> Callab
 
 @cache
 def kernel_of(loop: str) -> Any:
-    """A kernel by its module in this package and its name, such as "inverse.each_contact"."""
+    """A kernel by its module in this package and its name, such as "forward.each_contact"."""
     module, _, name = loop.rpartition(".")
     importlib.import_module(".kernels", __package__).SAID.clear()
     return getattr(importlib.import_module(f".{module}", __package__), name)

@@ -23,6 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from .elementary import EPS
 from .kernels import (
     BREAKS,
     function,
@@ -44,8 +45,6 @@ stops earlier once its terms are negligible."""
 
 FINEST = 8
 """The step of the rule is 1 initially and is halved down to 2**-FINEST."""
-
-EPS = 2.0**-52
 
 AGREED = 1e-12
 """If two sums agree to within this, the later one is exact to rounding."""

@@ -17,8 +17,9 @@ Kernels, each written for one case, in plain Python with `math`, compiled by num
 
 kernels     the decorators for numba, and their substitutes without it
 pieces      load, moment, tilt, pressure and edge coefficients, by quadrature of g''
-forward     the same for many contacts
+search      the root of an increasing function
 inverse     the contact under given loads
+forward     contacts and their state, case by case
 history/    any load history, on elements
 slip/       stick zones, slip zones, shear, a march through a cycle
 """

@@ -106,7 +106,7 @@ def contact(asked: Asked, P: Array, M: Array = 0.0, *, E_star: Array) -> Contact
     """
     given, loads = {"P": P, "M": M}, ("P", "M")
     return asked.solved(
-        "inverse.each_contact", given, {"E_star": E_star}, loads, Contact, over_modulus=loads
+        "forward.each_contact", given, {"E_star": E_star}, loads, Contact, over_modulus=loads
     )
 
 
@@ -125,7 +125,7 @@ def contact_at_tilt(asked: Asked, P: Array, alpha: Array = 0.0, *, E_star: Array
         moves, the pressure changes by that of a flat punch.
     """
     return asked.solved(
-        "inverse.each_contact_at_tilt",
+        "forward.each_contact_at_tilt",
         {"P": P, "alpha": alpha},
         {"E_star": E_star},
         ("P", "alpha"),

@@ -9,6 +9,9 @@ from .types import Array
 TINY = 1e-150
 """Substitute for a distance of zero where a quotient must stay finite."""
 
+EPS = 2.0**-52
+"""Spacing of float64 next to 1."""
+
 LEAST, MOST = 1e-75, 1e75
 """The shortest and the longest length, in metres, whose products stay well within float64."""
 

@@ -24,8 +24,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .elementary import LEAST, MOST
-from .kernels import LAW, LOOP, kernel, opened, real, record, results, truth, vector
+from .elementary import EPS, LEAST, MOST
+from .kernels import LAW, kernel, real, record, results, truth, vector
+from .search import by_distance, narrowed
 
 STEPS = 100
 """Largest number of steps of Newton's method, and of a search."""
@@ -46,9 +47,6 @@ SMALLEST = 1e-9
 FINEST = 2.0**-10
 """Newton's method has failed if even this fraction of a step does not reduce the error."""
 
-CLOSEST = 1e-9
-"""An edge is not sought closer to an end of the body than this fraction of the distance."""
-
 EXACT = 1e-13
 """A contact is accepted at once if its error, apart from rounding, is below this."""
 
@@ -61,8 +59,6 @@ ROUGHEST = 1e-4
 UNSURE = 1e-2
 """No contact is returned if rounding of its place or tilt moves an edge by more than this fraction
 of the width."""
-
-EPS = 2.0**-52
 
 
 class Target(NamedTuple):
@@ -80,64 +76,7 @@ class Target(NamedTuple):
     held: bool
 
 
-class Search(NamedTuple):
-    """A search for the root of an increasing function of y, the logarithm of a distance.
-
-    low, high  bounds of the root
-    top        the function at `high`; infinite if it is not known, or if the body ends there
-    guess      where the search began
-    y, step    the next point, and its distance from the last one; step is 0 at the root
-    """
-
-    low: float
-    high: float
-    top: float
-    guess: float
-    y: float
-    step: float
-
-
 TARGET: Any = record(Target, real, real, real, truth)
-SEARCH: Any = record(Search, real, real, real, real, real, real)
-
-
-# ---------------------------------------------------------------- a root
-
-
-@kernel(SEARCH(real, real, real, real))
-def _begun(start: float, far: float, top: float, guess: float) -> Search:
-    """A search among the distances from `start`, up to `far`, where the function equals `top`."""
-    low = math.log(max(EPS * abs(start), LEAST))
-    high = max(math.log(min(far, MOST)), low)
-    y = min(max(math.log(max(guess, LEAST)), low), high)
-    return Search(low, high, top, y, y, 16.0)
-
-
-@kernel(SEARCH(SEARCH, real, real))
-def _next(search: Any, value: float, rate: float) -> Search:
-    """The search after the function has been evaluated at y.
-
-    value, rate: the function and its derivative with respect to y; rate is 0 if it is not known.
-
-    Newton's step is taken if it stays between the bounds and is at most half of the last step.
-    Otherwise the next step doubles the distance from the guess, but goes at most half of the way
-    to the bound.
-    """
-    low, high, top, guess, y, step = search
-    if value < 0:
-        low, room = y, (high - y) / 2
-    else:
-        high, top, room = y, value, (low - y) / 2
-    rounding = 2 * EPS * max(abs(y), 1.0)
-    by = -value / rate if rate > 0 else math.inf
-    if abs(by) <= rounding:
-        return Search(low, high, 0.0, guess, y, 0.0)
-    if not (low < y + by < high and abs(by) <= step / 2):
-        by = math.copysign(min(max(abs(y - guess), 2.0), abs(room)), room)
-    done = abs(by) <= rounding or (top == math.inf and high - low < CLOSEST)
-    return Search(low, high, top, guess, y + by, 0.0 if done else abs(by))
-
-
 # ---------------------------------------------------------------- one contact and its target
 
 
@@ -204,7 +143,7 @@ def _width(law: Any, own: Any, breaks: Any, target: Any) -> float:
     for at in breaks:
         nearest = min(nearest, abs(at - target.place))
     h = min(h, max(4 * nearest, target.load))
-    search = _begun(0.0, math.inf, math.inf, h)
+    search = by_distance(0.0, math.inf, math.inf, h)
     for _ in range(STEPS):
         h = math.exp(search.y)
         now = law.state(h / 2 - target.place, h / 2 + target.place, own)
@@ -215,7 +154,7 @@ def _width(law: Any, own: Any, breaks: Any, target: Any) -> float:
             rate = math.pi * math.sqrt(h) / 8 * h * (left + right) / load
             if abs(over) < NEAR:
                 return h
-        search = _next(search, over, rate)
+        search = narrowed(search, over, rate)
         if search.high - search.low < NARROWED:
             return math.exp(search.low if search.top == math.inf else search.high)
     return math.nan
@@ -330,11 +269,11 @@ def _right_edge(law: Any, own: Any, breaks: Any, target: Any, a: float, guess: f
             else:
                 end, top = at, value
     guess = guess if start < guess < end else min(start + a + target.place, (start + end) / 2)
-    search = _begun(start, end - start, top, guess - start)
+    search = by_distance(start, end - start, top, guess - start)
     for _ in range(STEPS):
         far = math.exp(search.y)
         value, rate = _second_condition(law, own, target, a, start + far)
-        search = _next(search, value, rate * far)
+        search = narrowed(search, value, rate * far)
         if search.step == 0:
             break
     if search.top < math.inf:
@@ -356,12 +295,12 @@ def _nested(law: Any, own: Any, breaks: Any, target: Any, size: float) -> Any:
                 start = at
             else:
                 end, top = at, value
-    search = _begun(start, end - start, top, min(size, (end - start) / 2))
+    search = by_distance(start, end - start, top, min(size, (end - start) / 2))
     for _ in range(STEPS):
         far = math.exp(search.y)
         c = _right_edge(law, own, breaks, target, start + far, c)
         value, rate = _load_condition(law, own, target, start + far, c)
-        search = _next(search, value, rate * far)
+        search = narrowed(search, value, rate * far)
         if search.step == 0:
             break
     return (start + far, c) if search.top < math.inf else (math.nan, math.nan)
@@ -398,11 +337,11 @@ def level(law: Any, own: Any, alpha: float) -> float:
     side, start, end = (1.0, before, beyond) if before > -math.inf else (-1.0, beyond, before)
     far = side * (end - start)
     guess = min(far / 2, abs(start) if start != 0 else 1.0)
-    search = _begun(start, far, math.inf if far == math.inf else 0.0, guess)
+    search = by_distance(start, far, math.inf if far == math.inf else 0.0, guess)
     for _ in range(STEPS):
         away = math.exp(search.y)
         slope, curvature = law.slope(start + side * away, own)
-        search = _next(search, side * (slope + alpha), curvature * away)
+        search = narrowed(search, side * (slope + alpha), curvature * away)
         if search.step == 0:
             break
     return start + side * math.exp(search.y) if search.top < math.inf else math.nan
@@ -466,21 +405,3 @@ def contact_at_tilt(law: Any, own: Any, P: float, alpha: float) -> Any:
     """The edges a, c under a load at a given tilt; NaN if there is no contact."""
     a, c, _ = _solved(law, own, Target(P, level(law, own, alpha), alpha, True))
     return a, c
-
-
-@kernel(LOOP)
-def each_contact(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Edges a, c and the tilt under loads P and moments M."""
-    law = opened(law)
-    for i in range(given.shape[0]):
-        out[i, 0], out[i, 1], out[i, 2] = contact(law, own[i], given[i, 0], given[i, 1])
-
-
-@kernel(LOOP)
-def each_contact_at_tilt(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Edges a, c under loads P at given tilts, and the tilt, NaN where there is no contact."""
-    law = opened(law)
-    for i in range(given.shape[0]):
-        alpha = given[i, 1]
-        a, c = contact_at_tilt(law, own[i], given[i, 0], alpha)
-        out[i, 0], out[i, 1], out[i, 2] = a, c, alpha if a == a else math.nan

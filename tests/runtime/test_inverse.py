@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from generated.runtime import inverse
-from generated.runtime.inverse import each_contact, each_contact_at_tilt
+from generated.runtime.forward import each_contact, each_contact_at_tilt
 from generated.runtime.kernels import BREAKS, LOOP, SLOPE, STATE, Law, handed, kernel, opened
 from tests.runtime.laws import Case, flat_rounded, hertz, wedge
 

@@ -37,7 +37,7 @@ def test_a_line_says_that_a_solver_is_compiled(
     for _ in range(2):
         monkeypatch.setattr(kernels, "SAID", ["before"])
         kernel_of.cache_clear()
-        kernel_of("inverse.each_contact")  # its module has been loaded, so that nothing is compiled
+        kernel_of("forward.each_contact")  # its module has been loaded, so that nothing is compiled
         for _ in range(3):
             kernels._announce()
         assert capsys.readouterr() == ("", f"{COMPILING}\n")

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from generated.runtime.inverse import contact_at_tilt
 from generated.runtime.kernels import LOOP, kernel, opened
-from generated.runtime.slip.large import large_zone
+from generated.runtime.slip.march import large_zone
 from generated.runtime.slip.mixed import mixed_zone
 
 from . import laws

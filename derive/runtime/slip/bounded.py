@@ -30,8 +30,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..elementary import EPS
 from ..kernels import LAW, PRESSURE, function, kernel, real, record, results, vector, whole
-from .newton import EPS, log_step, moved, narrowed
+from ..search import between, narrowed
+from .newton import log_step, moved
 from .quadrature import slip_nodes
 from .tables import TABLE, Table, tabled
 
@@ -60,9 +62,6 @@ LEAST_STUCK = 1e-3
 
 NEAREST = 1e-9
 """Finite parts omit nodes that are closer to the stick zone than this fraction of a slip zone."""
-
-CLOSE = 4 * EPS
-"""Accuracy of the position of a stick zone of given width, relative to this width."""
 
 
 class Gain(NamedTuple):
@@ -366,18 +365,16 @@ def placed(of: Any, stuck: float, n: float, level: int) -> Any:
     monotonically with n.  Slip must be driven in opposite directions, or not at all on the right.
     n: the first guess.
     """
-    least, most, close = stuck - of.a, of.c, CLOSE * stuck
-    if not least < n < most:
-        n = (least + most) / 2
-    bracket = (least, most, n, most - least)
+    least, most = stuck - of.a, of.c
+    search = between(least, most, n, 2 * stuck)
     drive_left, drive_right = drives(of.cycle[4], of.cycle[5], stuck)
     for _ in range(2 * STEPS):
-        n = bracket[2]
+        n = search.y
         slip = beside(of, stuck - n, n, n - least, most - n, level)
         L, R, by_m, by_n = sums(slip)
         value, rate = drive_left * R - drive_right * L, (drive_left * by_n + drive_right * by_m) / 2
-        bracket = narrowed(bracket, value, rate, close)
-        if bracket[1] - bracket[0] <= 2 * close:
+        search = narrowed(search, value, rate)
+        if search.step == 0:
             return slip
     return unknown(math.nan)
 

@@ -10,22 +10,20 @@ less, slip has reversed.
 import math
 from typing import Any
 
+from ..elementary import EPS
 from ..kernels import LAW, kernel, real, results, vector, whole
+from ..search import between, narrowed
 from .bounded import (
-    CLOSE,
     FRICTION,
     SLIP,
     STEPS,
     drives,
     friction,
-    oriented,
     placed,
-    sense_of,
     share,
     solved,
     unknown,
 )
-from .newton import EPS, narrowed
 from .quadrature import FINEST
 
 EXACT = 1e-12
@@ -74,13 +72,13 @@ def _bracketed(of: Any, level: int) -> Any:
     last, excess = stuck, 1 - share(of, slip)
     if excess > 0:
         return unknown(-math.inf)
-    bracket = (stuck, width, (stuck + width) / 2, width - stuck)
+    search = between(stuck, width, math.nan, 2 * width)
     for _ in range(2 * STEPS):
-        before, stuck = excess, bracket[2]
+        before, stuck = excess, search.y
         slip = placed(of, stuck, slip.n, level)
         excess = 1 - share(of, slip)
-        bracket = narrowed(bracket, excess, (excess - before) / (stuck - last), CLOSE * width)
-        if bracket[1] - bracket[0] <= 2 * CLOSE * width or math.isnan(excess):
+        search = narrowed(search, excess, (excess - before) / (stuck - last))
+        if search.step == 0 or math.isnan(excess):
             return slip
         last = stuck
     return unknown(math.nan)
@@ -118,11 +116,3 @@ def large_slip(law: Any, own: Any, cycle: Any, sense: float, agreed: float) -> A
         if 0 < last_left < math.inf:
             left, right = last_left, last_right
     return unknown(math.nan)
-
-
-@kernel(results(2)(LAW, vector, vector))
-def large_zone(law: Any, own: Any, cycle: Any) -> Any:
-    """m and n under large tension of either sign."""
-    sense, as_oriented = sense_of(cycle), oriented(cycle)
-    slip = large_slip(law, own, as_oriented, sense, EXACT)
-    return (slip.m, slip.n) if sense > 0 else (slip.n, slip.m)

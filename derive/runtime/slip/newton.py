@@ -1,37 +1,13 @@
-"""Newton's method kept within bounds: for one unknown in a bracket, and for two slip zones.
+"""Newton's method for two slip zones.
 
-The unknowns for two slip zones are the logarithms of their lengths divided by the width of the
-stick zone between them, so that all three stay positive.
+The unknowns are the logarithms of their lengths divided by the width of the stick zone between
+them, so that all three stay positive.
 """
 
 import math
 from typing import Any
 
 from ..kernels import kernel, real, results
-
-EPS = 2.0**-52
-
-
-@kernel(results(4)(results(4), real, real, real))
-def narrowed(bracket: Any, value: float, rate: float, least: float) -> Any:
-    """The bracket of the root of an increasing function after one more step.
-
-    A bracket is low, high, the next point, and the length of the step to it, which is high - low at
-    first.  Newton's step is taken if it stays inside and is at most half of the step before;
-    otherwise the bracket is halved.  A step shorter than `least` is lengthened to `least`, to test
-    whether it passes the root.
-    """
-    low, high, x, before = bracket
-    if value < 0:
-        low = x
-    else:
-        high = x
-    step = -value / rate if rate > 0 else math.inf
-    if abs(step) < least:
-        step = math.copysign(least, -value)
-    if not (low < x + step < high and abs(step) < before / 2):
-        step = (low + high) / 2 - x
-    return low, high, x + step, abs(step)
 
 
 @kernel(results(2)(real, real, results(3), results(3), real))

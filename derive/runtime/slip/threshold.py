@@ -9,12 +9,16 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector
+from ..search import by_distance, narrowed
 from .growth import PARTS, advances, grows, load_path
-from .moderate import A, C, closing
+from .moderate import LOAD, TILT, A, C
 from .zone import ends_of, exists, resolved, slides
 
 HALVINGS = 52
 """Number of bisections of an interval, enough to reach the last bit of float64."""
+
+STEPS = 100
+"""Largest number of steps until a width is found."""
 
 
 @kernel(vector(vector))
@@ -75,6 +79,51 @@ def _narrowed(law: Any, own: Any, path: Any, cycle: Any, lower: float, upper: fl
     return math.nan, math.nan
 
 
+@kernel(results(3)(LAW, vector, real, real, real))
+def _keeping(law: Any, own: Any, edge: float, width: float, side: float) -> Any:
+    """Load, its derivative with respect to the width, and tilt of a contact whose left or right
+    edge is fixed."""
+    a, c = (edge, width - edge) if side < 0 else (width - edge, edge)
+    load, _, tilt, K_left, K_right = law.state(a, c, own)
+    if not load > 0:
+        return 0.0, 0.0, math.nan
+    return load, math.pi / 4 * math.sqrt(width) * (K_right if side < 0 else K_left), tilt
+
+
+@kernel(real(LAW, vector, real, real, real, real))
+def _width_under(law: Any, own: Any, load: float, edge: float, side: float, width: float) -> Any:
+    """Width of the contact under a load with the edge on one side given; NaN if there is none.
+
+    width: the first guess.
+    """
+    search = by_distance(0.0, math.inf, math.inf, width)
+    for _ in range(STEPS):
+        width = math.exp(search.y)
+        now, rate, _ = _keeping(law, own, edge, width, side)
+        search = narrowed(search, now - load, rate * width)
+        if search.step == 0:
+            return width if search.top < math.inf else math.nan
+    return math.nan
+
+
+@kernel(real(LAW, vector, matrix, vector, real))
+def _closing(law: Any, own: Any, ends: Any, cycle: Any, side: float) -> Any:
+    """The change in tension at which the zone reaches the smaller contact's edge on one side."""
+    load = (ends[0, LOAD] + ends[1, LOAD]) / 2 - cycle[4] / (2 * cycle[6])
+    if not load > 0:
+        return math.nan
+    edge = min(ends[0, C], ends[1, C]) if side > 0 else min(ends[0, A], ends[1, A])
+    width = max(ends[0, A] + ends[0, C], ends[1, A] + ends[1, C])
+    width = _width_under(law, own, load, edge, side, width)
+    if not width > 0:
+        return math.nan
+    now, _, tilt = _keeping(law, own, edge, width, side)
+    # next to a kink, rounding error in the position of the other edge changes the tilt: use the
+    # missing load to correct it
+    tilt += side * 4 * (load - now) / (math.pi * width)
+    return 4 * cycle[6] * ((ends[0, TILT] + ends[1, TILT]) / 2 - tilt)
+
+
 @kernel(LOOP)
 def each_tension_threshold(law: Any, given: Any, own: Any, out: Any) -> None:
     """The changes in tension between which the moderate solution is exact.
@@ -108,5 +157,5 @@ def each_closing_tension(law: Any, given: Any, own: Any, out: Any) -> None:
         ends = ends_of(law, own[i], cycle)
         out[i, 0] = out[i, 1] = math.nan
         if exists(ends, cycle) and resolved(ends):
-            out[i, 0] = closing(law, own[i], ends, cycle, -1.0)
-            out[i, 1] = closing(law, own[i], ends, cycle, 1.0)
+            out[i, 0] = _closing(law, own[i], ends, cycle, -1.0)
+            out[i, 1] = _closing(law, own[i], ends, cycle, 1.0)

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..elementary import EPS
 from ..kernels import LAW, LOOP, kernel, matrix, opened, results, truth, vector
 from ..types import FULL_STICK, LARGE, MIXED, MODERATE, NONE, SLIDING, UNSOLVED
 from .bounded import oriented, sense_of
@@ -28,7 +29,6 @@ from .growth import (
 )
 from .large import EXACT, large_slip
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
-from .newton import EPS
 
 LEAST_RESOLVED = 1e-6
 """Largest shift of an edge due to rounding of the tilt, relative to the width."""

@@ -76,7 +76,9 @@ def load_path(law: Any, own: Any, ends: Any) -> Any:
     for i in range(5):
         path[0, i], path[PARTS, i] = ends[0, i], ends[1, i]
     for k in range(1, PARTS):
-        path[k] = _on_the_way(law, own, ends, k / PARTS)
+        point = _on_the_way(law, own, ends, k / PARTS)
+        for i in range(5):
+            path[k, i] = point[i]
     return path
 
 

@@ -36,8 +36,9 @@ from ..types import (
     UNSOLVED,
     Array,
 )
+from .bounded import oriented, sense_of
 from .growth import narrowest
-from .large import large_zone
+from .large import EXACT, large_slip
 from .locked import holds_load
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
 from .series import slip_zones
@@ -189,6 +190,14 @@ def _half_cycle(
         cycle[i] = 0.0 if abs(rise) <= roundings[k] else rise
     cycle[6] = f
     return cycle
+
+
+@kernel(results(2)(LAW, vector, vector))
+def large_zone(law: Any, own: Any, cycle: Any) -> Any:
+    """m and n under large tension of either sign."""
+    sense, as_oriented = sense_of(cycle), oriented(cycle)
+    slip = large_slip(law, own, as_oriented, sense, EXACT)
+    return (slip.m, slip.n) if sense > 0 else (slip.n, slip.m)
 
 
 @kernel(results(2)(LAW, vector, matrix, vector, whole, whole, whole, real))

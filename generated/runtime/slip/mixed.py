@@ -52,6 +52,7 @@ from ..kernels import (
     vector,
     whole,
 )
+from ..search import between, narrowed
 from ..types import MIXED, UNSOLVED
 from .bounded import (
     FRICTION,
@@ -71,7 +72,6 @@ from .bounded import (
     solved,
 )
 from .moderate import patch
-from .newton import EPS, narrowed
 from .quadrature import double_exponential
 from .tables import (
     ANGLES,
@@ -311,13 +311,13 @@ def _ending(receded: Any, m: float, part: float, s: float) -> Any:
 def _cut_off(receded: Any, part: float) -> Any:
     """The legs ended in the last one by the end of the half-cycle; part: lambda before that leg."""
     top, span, rates = receded.tops[-1], receded.spans[-1], receded.rates[-1]
-    bracket = (0.0, 1.0, 1.0, 1.0)
+    search = between(0.0, 1.0, math.nan, 2.0)
     for _ in range(STEPS if receded.part < math.inf else 0):
-        s = bracket[2]
+        s = search.y
         excess = part + _elapsed(rates, span, s) - 1
         rate = math.pi / 2 * span * math.sin(math.pi * s) * summed(rates, s)
-        bracket = narrowed(bracket, excess, rate, 4 * EPS)
-        if bracket[1] - bracket[0] <= 8 * EPS:
+        search = narrowed(search, excess, rate)
+        if search.step == 0:
             return _ending(receded, top - span * math.sin(math.pi / 2 * s) ** 2, 1.0, s)
     return _ending(receded, math.nan, 1.0, math.nan)
 

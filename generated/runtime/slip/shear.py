@@ -40,6 +40,7 @@ from typing import Any
 
 import numpy as np
 
+from ..elementary import EPS
 from ..kernels import LAW, LOOP, kernel, opened, real, results, truth, vector
 from ..types import FULL_STICK, LARGE, MIXED, MODERATE
 from .bounded import ZONE, beside, change, friction, oriented, sense_of
@@ -48,10 +49,8 @@ LEVEL = 2
 """Level of the quadrature, sufficient however close a kink is to the stick zone."""
 
 BESIDE = 1e-20
-"""Least distance between a point in the stick zone and a corner, relative to the zone's width."""
-
-EPS = 2.0**-52
-"""Least such distance relative to the corner's distance from the origin; the larger one applies."""
+"""Least distance between a point in the stick zone and a corner, relative to the zone's width; a
+rounding of the corner's place if that is larger."""
 
 ROUNDED = 1e-9
 """Ends of two stick zones that differ by less than this fraction of the contact width may be
