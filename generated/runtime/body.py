@@ -150,27 +150,28 @@ class Asked(NamedTuple):
 
         def rows(**part: Any) -> Any:
             shape = shape_of(part)
-            cases = np.empty((*shape, len(row) + len(options)))
-            for i, name in enumerate(row):
-                divisor = part["E_star"] if name in over_modulus else 1.0
-                cases[..., i] = part[name] / divisor
-            cases[..., len(row) :] = [*options.values()]
-            own = np.empty((*shape, len(self.own)))
-            for i, name in enumerate(self.own):
-                own[..., i] = part[name]
-            size = math.prod(shape)
-            out = np.empty((size, count))
-            kernel(
-                law,
-                cases.reshape(size, cases.shape[-1]),
-                own.reshape(size, own.shape[-1]),
-                out,
-            )
+            values = [part[n] / part["E_star"] if n in over_modulus else part[n] for n in row]
+            cases = _table([*values, *options.values()], shape)
+            out = np.empty((len(cases), count))
+            kernel(law, cases, _table([part[n] for n in self.own], shape), out)
             factor = part["E_star"] if by_modulus else 1.0
-            columns = [out[:, i].reshape(shape) * factor for i in range(count)]
+            if not shape:
+                columns = [*(out[0] * factor)]
+            else:
+                columns = [column.reshape(shape) * factor for column in out.T]
             return columns if count > 1 else columns[0]
 
         return evaluated(rows, numbers, kind, CASES)
+
+
+def _table(values: list[Any], shape: tuple[int, ...]) -> Any:
+    """The values of all cases, one row per case."""
+    if not shape:
+        return np.array([values], dtype=np.float64)
+    table = np.empty((*shape, len(values)))
+    for i, value in enumerate(values):
+        table[..., i] = value
+    return table.reshape(math.prod(shape), len(values))
 
 
 def numbers_of(given: Mapping[str, Any], constants: Mapping[str, Any]) -> Numbers:
@@ -182,7 +183,7 @@ def numbers_of(given: Mapping[str, Any], constants: Mapping[str, Any]) -> Number
     numbers = {name: real(value, name) for name, value in given.items()}
     numbers |= {name: positive_or_nan(real(value, name)) for name, value in constants.items()}
     for name, value in numbers.items():
-        if is_foreign(value) and not is_lazy(value):
+        if type(value) is not np.float64 and is_foreign(value) and not is_lazy(value):
             raise TypeError(
                 "functions that solve or integrate accept only NumPy and Dask arrays, and "
                 f"{name} is a {type(value).__module__}.{type(value).__name__}: convert it to NumPy"

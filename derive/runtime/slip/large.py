@@ -22,6 +22,7 @@ from .bounded import (
     placed,
     share,
     solved,
+    turning_width,
     unknown,
 )
 from .quadrature import FINEST
@@ -65,7 +66,7 @@ def _first_guess(law: Any, own: Any, of: Any) -> Any:
 def _bracketed(of: Any, level: int) -> Any:
     """Slip zones by the width of the stick zone; m = -inf if slip reverses on the right."""
     width = of.a + of.c
-    stuck = max(8 * of.cycle[4] / (math.pi * of.cycle[5]), NARROWEST * width)
+    stuck = max(turning_width(of.cycle), NARROWEST * width)
     if not stuck < width:
         return unknown(-math.inf)
     slip = placed(of, stuck, math.nan, level)

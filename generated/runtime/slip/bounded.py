@@ -276,6 +276,12 @@ def drives(dQ: float, dsigma: float, stuck: float) -> Any:
     return dQ + by_tension, dQ - by_tension
 
 
+@kernel(real(vector))
+def turning_width(cycle: Any) -> float:
+    """H = 8 dQ/(pi dsigma), the width of a stick zone whose right end is not driven."""
+    return float(8 * cycle[4] / (math.pi * cycle[5]))
+
+
 @kernel(results(4)(ZONE, real))
 def _integrals(zone: Any, stuck: float) -> Any:
     """int r/u, int r u, C and D of the module's docstring over one slip zone."""

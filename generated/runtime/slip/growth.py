@@ -101,7 +101,7 @@ def narrowest(law: Any, own: Any, ends: Any) -> Any:
     receding to advancing.
     """
     last = ends.shape[0] - 1
-    smallest = np.array([min(ends[0, A], ends[last, A]), min(ends[0, C], ends[last, C])])
+    least_a, least_c = min(ends[0, A], ends[last, A]), min(ends[0, C], ends[last, C])
     for side in range(2):
         first = advances(ends, ends[0, A] + ends[0, C], ends[0, A], ends[0, C])[side]
         final = advances(ends, ends[last, A] + ends[last, C], ends[last, A], ends[last, C])[side]
@@ -114,8 +114,11 @@ def narrowest(law: Any, own: Any, ends: Any) -> Any:
                 low = part
             else:
                 high = part
-            smallest[side] = min(smallest[side], a if side == 0 else c)
-    return smallest[0], smallest[1]
+            if side == 0:
+                least_a = min(least_a, a)
+            else:
+                least_c = min(least_c, c)
+    return least_a, least_c
 
 
 @kernel(truth(matrix, vector, real))

@@ -70,6 +70,7 @@ from .bounded import (
     sense_of,
     share,
     solved,
+    turning_width,
 )
 from .moderate import patch
 from .quadrature import double_exponential
@@ -177,12 +178,6 @@ def _with_gains(of: Any, part: float, a: float, kappa: float, left: Any, right: 
     )
 
 
-@kernel(real(FRICTION))
-def _width(of: Any) -> float:
-    """The width H."""
-    return float(8 * of.cycle[4] / (math.pi * of.cycle[5]))
-
-
 # ---------------------------------------------------------------- Abel's equation
 
 
@@ -254,7 +249,7 @@ def _gained(of: Any, receded: Any, x: float) -> float:
     total, legs = 0.0, len(receded.tops)
     for leg in range(legs):
         bottom = receded.tops[leg + 1] if leg < legs - 1 else receded.m
-        distance = _width(of) - x - receded.tops[leg]
+        distance = turning_width(of.cycle) - x - receded.tops[leg]
         top = min(0.0, distance)
         length = receded.tops[leg] + top - bottom
         if length > 0:
@@ -277,7 +272,7 @@ def _rates(of: Any, grown: Any, before: Any, span: float, count: int) -> Any:
     for i in range(count):
         right[i] -= change(grown, places[i]) + _gained(of, before, places[i])
         right[i] *= 2 / (of.cycle[5] * span * math.sin(math.pi / 2 * s[i]))
-    return abel(_width(of) / span, right)
+    return abel(turning_width(of.cycle) / span, right)
 
 
 @kernel(real(FRICTION, real, real))
@@ -329,7 +324,7 @@ def _recede(of: Any, grown: Any, middle: float, part: float, stretch: int, count
     The range of m is not known beforehand, so that the tables are extended step by step.  A new leg
     begins at each break, because Lambda has a square root before it.
     """
-    sticks_all_right, nowhere = _width(of) - of.c, np.empty(0)
+    sticks_all_right, nowhere = turning_width(of.cycle) - of.c, np.empty(0)
     least, legs = max(sticks_all_right, -middle), 0
     receded = Receded(nowhere, nowhere, np.empty((0, count)), grown.m, part, math.nan, 0)
     while receded.m > least:
@@ -371,7 +366,7 @@ def _regrown(of: Any, left: float, right: float) -> Any:
         slip = solved(of, left, right, LEVEL)
         if slip.d_left > 0:
             return slip
-    H, near = _width(of), NEAR * _width(of)
+    H, near = turning_width(of.cycle), NEAR * turning_width(of.cycle)
     scale = math.pi / 2 * math.sqrt(H / near)
     at_left = scale * remaining_friction(of, of.left, np.array([near - of.a]))[0]
     at_right = scale * remaining_friction(of, of.right, np.array([of.c - near]))[0]
@@ -388,7 +383,7 @@ def _regrown(of: Any, left: float, right: float) -> Any:
 def _half_cycle(of: Any, middle: float, begun: Any, count: int) -> Any:
     """The zone and the gain at the end of a half-cycle, by tables with `count` terms."""
     nothing = State(math.nan, math.nan, begun.gain, math.nan, math.nan, 0)
-    c, H = of.c, _width(of)
+    c, H = of.c, turning_width(of.cycle)
     of = _with_gains(of, 1.0, of.a, -1.0, no_gain(), begun.gain)
     grown = placed(of, H, begun.n, LEVEL)
     n_1, part = grown.n, share(of, grown)
@@ -436,7 +431,7 @@ def _is_sound(of: Any, state: Any) -> bool:
         if not abs(gained) < math.inf:
             return False
         most, excess = max(most, twice[i]), max(excess, -gained, gained - twice[i])
-    turns = (of.c - of.a) / 2 + _width(of) / 2
+    turns = (of.c - of.a) / 2 + turning_width(of.cycle) / 2
     last = of.c if state.gain.rubs > 0 else table.end
     return state.n < table.end <= of.c and -state.m <= turns <= last and excess <= SLACK * most
 
@@ -448,7 +443,7 @@ def zone_by_phases(law: Any, own: Any, cycle: Any, sense: float) -> Any:
     if not (cycle[4] > 0 and cycle[5] > 0 and a + c > 0):
         return math.nan, math.nan
     of = friction(law, own, cycle, sense, -1.0, math.nan)
-    grown = placed(of, _width(of), math.nan, LEVEL)
+    grown = placed(of, turning_width(of.cycle), math.nan, LEVEL)
     middle = grown.n - (grown.m + grown.n) / 4
     state = State(math.nan, math.nan, no_gain(), math.nan, math.nan, 0)
     for count in TERMS:
@@ -479,7 +474,7 @@ def mixed_zone(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
     if math.isnan(m):
         m, n = patch(law, own, ends, 0, 1, 1.0, cycle)
         receding = n if sense > 0 else m
-        past = as_oriented[0] + receding - 8 * as_oriented[4] / (math.pi * as_oriented[5])
+        past = as_oriented[0] + receding - turning_width(as_oriented)
         within = 0 < past <= STRIP * (cycle[0] + cycle[1])
         return (m, n) if within else (math.nan, math.nan)
     return (m, n) if sense > 0 else (n, m)

@@ -17,7 +17,7 @@ import numpy as np
 from ..elementary import EPS
 from ..kernels import LAW, LOOP, kernel, matrix, opened, results, truth, vector
 from ..types import FULL_STICK, LARGE, MIXED, MODERATE, NONE, SLIDING, UNSOLVED
-from .bounded import oriented, sense_of
+from .bounded import drives, oriented, sense_of
 from .growth import (
     grows,
     grows_apart,
@@ -87,7 +87,7 @@ def _large(law: Any, own: Any, path: Any, cycle: Any) -> Any:
         if math.isnan(m):
             return m, n, UNSOLVED
         if (
-            math.pi * (m + n) * cycle[5] / 8 >= cycle[4]
+            drives(cycle[4], cycle[5], m + n)[1] <= 0
             and holds_at_the_start(path, cycle, m, n)
             and (path.shape[0] == 2 or grows_apart(law, own, path, cycle, sense, m, n))
         ):
@@ -107,7 +107,7 @@ def _overtaken(law: Any, own: Any, path: Any, cycle: Any) -> Any:
     """
     m, n = patch(law, own, path, 0, 1, 1.0, cycle)
     whole = cycle[1] + m if cycle[5] < 0 else cycle[0] + n
-    if m <= cycle[0] and n <= cycle[1] and math.pi * abs(cycle[5]) * whole <= 8 * cycle[4]:
+    if m <= cycle[0] and n <= cycle[1] and drives(cycle[4], abs(cycle[5]), whole)[1] >= 0:
         return m, n
     return math.nan, math.nan
 
