@@ -506,8 +506,9 @@ def shear(
     given = {"x": x, **_edges_of(contact, "contact"), "Q": Q, "sigma": sigma}
     given |= {"dQ": dQ, "dsigma": dsigma}
     constants = {"f": f, "E_star": E_star}
-    if not any_lazy([*given.values(), *constants.values(), *asked.own.values()]):
-        twice = 2 * numbers_of({"Q": Q}, {})["Q"], 2 * numbers_of({"sigma": sigma}, {})["sigma"]
+    numbers = numbers_of(given, constants)
+    if not any_lazy([*numbers.values(), *asked.own.values()]):
+        twice = 2 * numbers["Q"], 2 * numbers["sigma"]
         given |= _zone(asked, "_rise", contact, contact, *twice, f, E_star)
         given |= _zone(asked, "_fall", contact, contact, dQ, dsigma, f, E_star)
     zones = [f"{field}{label}" for label in ("_rise", "_fall") for field in StickZone._fields]

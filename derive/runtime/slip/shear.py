@@ -55,9 +55,6 @@ ROUNDED = 1e-9
 """Ends of two stick zones that differ by less than this fraction of the contact width may be
 equal."""
 
-TINY = 1e-300
-"""Least argument of a logarithm."""
-
 
 # ---------------------------------------------------------------- the change in shear
 
@@ -208,7 +205,9 @@ def _slipped(zone: Any, stuck: float, there: float, here: bool) -> Any:
         y_far = y + stuck
         if here:
             summed = math.sqrt(y * (there + stuck)) + math.sqrt(there * y_far)
-            logarithm = -math.log(max(stuck * abs(y - there) / (summed * summed), TINY))
+            # nodes crowd towards the point: closer to it than a rounding, the distance is not known
+            apart = max(abs(y - there), EPS * there)
+            logarithm = -math.log(stuck * apart / (summed * summed))
             smooth = root + (y + y_far) * arc
         else:
             summed = math.sqrt(y_far * (there + stuck)) + math.sqrt(there * y)
