@@ -8,7 +8,7 @@ from click.testing import CliRunner
 
 from derive.cli import main
 
-HEAD = 'seconds = 2\n[variables]\na = "a"\nb = "b"\n[symbols]\n'
+HEAD = 'seconds = 1\n[variables]\na = "a"\nb = "b"\n[symbols]\n'
 CLAIM = "[[claims]]\nlabel = 'it'\n"
 DEEP = "(" * 3000 + "a" + ")" * 3000
 
