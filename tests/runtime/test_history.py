@@ -269,14 +269,15 @@ def test_slip_ends_where_the_contact_was_at_rest(tol):
     assert found.slip_error[1] < 0.01 * slip.max()
 
 
-@pytest.mark.parametrize("tol", [1e-3, 1e-4])
-def test_a_cycle_out_of_phase_is_as_accurate_as_asked(tol):
+def test_a_cycle_out_of_phase_is_as_accurate_as_asked():
     """On some meshes a little slip within the zone is spurious."""
     t = np.linspace(0, 2 * np.pi, 9)[:-1]
     loads = LOAD * (1 + 0.2 * np.sin(t)), 0.01, 0.2 * F * LOAD * np.cos(t), 0.05 * np.sin(t)
-    found, fine = (steady_cycle(hertz, *loads, tol=e) for e in (tol, 1e-5))
-    off = max(abs(found.m - fine.m), abs(found.n - fine.n)) / (fine.m + fine.n)
-    assert off < found.error < 2 * tol
+    fine = steady_cycle(hertz, *loads, tol=1e-5)
+    for tol in (1e-3, 1e-4):
+        found = steady_cycle(hertz, *loads, tol=tol)
+        off = max(abs(found.m - fine.m), abs(found.n - fine.n)) / (fine.m + fine.n)
+        assert off < found.error < 2 * tol
 
 
 def test_sliding_and_back():

@@ -171,6 +171,7 @@ def test_friction_takes_what_the_loads_give(body):
     assert abs(steady.work - told.by_shear) < steady.work_error + 1e-4 * told.by_shear
 
 
+@pytest.mark.enough("rounded_wedge")
 @pytest.mark.parametrize("body", ["hertz", "rounded_wedge"])
 def test_the_stated_error_of_the_work_covers_it(body):
     """In at least 95 of 100 instants; the truth is that of a mesh with more elements."""
@@ -182,6 +183,7 @@ def test_the_stated_error_of_the_work_covers_it(body):
     assert len(covered) > 24 and np.mean(covered) >= 0.95
 
 
+@pytest.mark.enough("hertz")
 @pytest.mark.parametrize("body", ["hertz", "rounded_wedge"])
 def test_the_stated_errors_of_slip_and_shear_cover_them(body):
     """In at least 95 of 100 instants and cycles; the truth is that of finer meshes."""
