@@ -62,7 +62,9 @@ def draws(name: str, elements: int, count: int, seed: int = 0) -> Draws:
     return Draws(edge, K_N, (edge_covered, K_covered), warned, known)
 
 
-@pytest.mark.enough("hertz-20-0", "wedge-40-0", "flat_rounded-20-0", "hyperbola-*", "circular_arc-*")
+@pytest.mark.enough(
+    "hertz-20-0", "wedge-40-0", "flat_rounded-20-0", "hyperbola-*", "circular_arc-*"
+)
 @pytest.mark.parametrize(
     ("name", "elements", "seed"),
     [*((name, n, 0) for name in BODIES for n in (20, 40)), *((name, 40, 4242) for name in JUDGES)],
