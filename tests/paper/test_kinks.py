@@ -9,7 +9,6 @@ Integrals by hand, for |w| < 1:
     int_0^3 sign(sin 5 s)   = (pi - pi + pi - pi + (15 - 4 pi))/5 = 3 - 4 pi/5
 """
 
-import json
 from pathlib import Path
 from time import monotonic
 
@@ -19,8 +18,8 @@ from derive.errors import BadClaimsFile
 from derive.limit import LimitReached
 from derive.paper.claim import Verdict
 from derive.paper.report import evidence
-from derive.paper.userfile import read_claims
-from derive.paper.verdict import Finding, check, is_carried
+from derive.paper.verdict import Finding, is_carried
+from tests.paper import asking
 
 pytestmark = pytest.mark.slow
 
@@ -36,10 +35,7 @@ GOOD = {Verdict.HOLDS, Verdict.NUMERICAL}
 
 
 def judged(folder: Path, printed: str, head: str = HEAD) -> Finding:
-    path = folder / "claims.toml"
-    claim = f'[[claims]]\nlabel = "it"\nprinted = {json.dumps(printed)}\n'
-    path.write_text(head + claim, encoding="utf-8")
-    return check(read_claims(path).claims[0])
+    return asking.judged(folder, head + asking.claim(printed))
 
 
 @pytest.fixture
