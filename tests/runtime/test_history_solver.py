@@ -10,13 +10,11 @@ from tests.accuracy.histories import (
     CASES,
     CLOSED,
     TURNED,
-    F,
     compared,
     contraction,
     first_loading,
     in_phase,
     on_elements,
-    out_of_phase,
     random_loads,
     settled,
     turning_points,
@@ -109,7 +107,7 @@ def test_the_work_of_a_cycle_counts_what_slips_outside_the_smallest_contact():
     case, t = CASES["hertz"], np.arange(9) * np.pi / 4
     P = case.load * (1 + 0.24455 * np.cos(t) - 0.01563 * np.sin(t))
     Q = 0.00399 + 0.06699 * np.cos(t) - 0.01692 * np.sin(t)
-    truth = works(case, (P, 0 * P, Q, 0 * P)).by_shear
+    truth = works(case, (P, 0 * P, Q, 0 * P), 2).by_shear
     for tol in (1e-3, 1e-5):
         found = case.module.steady_cycle(P, 0, Q, 0, tol=tol, **case.constants)
         assert found.error == 0 and abs(found.work - truth) < found.work_error + 0.01 * truth
@@ -129,31 +127,6 @@ def test_every_cycle_in_phase_is_answered_and_agrees_with_the_exact_one(body):
             off = max(abs(m - known.m), abs(n - known.n)) / (known.m + known.n)
             assert off < error < 0.02
     assert exact >= 2
-
-
-# ---------------------------------------------------------------- wrong numbers that there were
-
-
-def test_what_march_does_not_cover_it_refuses_and_a_steady_cycle_answers():
-    case, t = CASES["hertz"], np.linspace(0, 2 * np.pi, 33)
-    ahead = np.pi / 4
-    leading = case.load, 0.0, 0.3 * F * case.load * np.cos(t), 0.4 * F * np.cos(t + ahead)
-    answers = (out_of_phase(33), Regime.MODERATE), (leading, Regime.COMPUTED)
-    for loads, regime in answers:
-        march = case.module.march(*loads, **case.constants)
-        assert np.all(march.regime == Regime.OUT_OF_PHASE) and np.all(np.isnan(march.m))
-        found = case.module.steady_cycle(*loads, **case.constants)
-        assert found.regime == regime and 0.3 < found.m < 1 and 0.3 < found.n < 1
-
-
-def test_a_cycle_that_slides_has_no_zone():
-    case, part = CASES["hertz"], np.array([0.9, 1, 1.1, 1.2, 1.3, 1.2, 1.1, 1])
-    loads = case.load, 0.0, part * F * case.load, 0.0
-    assert np.all(np.isnan(case.module.march(*loads, **case.constants).m))
-    found = case.module.steady_cycle(*loads, **case.constants)
-    assert found.regime == Regime.SLIDING and np.isnan(found.m)
-    history = case.module.history(*loads, **case.constants)
-    assert np.all((history.regime == Regime.SLIDING) == (part >= 1))
 
 
 # ---------------------------------------------------------------- energy
