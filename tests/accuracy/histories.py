@@ -375,8 +375,9 @@ PARTS = 4
 """Parts of the way between two instants, for the sum over time of the loads' work."""
 
 
-def works(case: Case, loads: Any) -> Works:
-    """Friction's work beside that of the loads, from shear and pressure at 600 places.
+def works(case: Case, loads: Any, fine: int = PARTS) -> Works:
+    """Friction's work beside that of the loads, from shear and pressure at 600 places, in so many
+    parts of the way between two instants.
 
     Where the surfaces stick at x0, Q moves with u, the displacement at x0 by q.  Tension strains
     the one body by sigma/E*, say, and works on its other ends' displacement, which reciprocity
@@ -387,7 +388,7 @@ def works(case: Case, loads: Any) -> Works:
     P moves with delta and M with the tilt, compression being delta - g(x) - alpha x: their work is
     int P d delta + int M d alpha, and nothing over a cycle, since pressure does not know of shear.
     """
-    own, count = case.constants, PARTS * (len(loads[0]) - 1) + 1
+    own, count = case.constants, fine * (len(loads[0]) - 1) + 1
     way, parts = np.linspace(0, 1, len(loads[0])), np.linspace(0, 1, count)
     finer = [np.interp(parts, way, v) for v in np.broadcast_arrays(*loads)]
     thrice = [np.concatenate([v, v[1:], v[1:]]) for v in finer]

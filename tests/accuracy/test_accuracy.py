@@ -14,6 +14,7 @@ pytestmark = pytest.mark.slow
 NAMES = [entry.name for entry in CATALOGUE]
 
 
+@pytest.mark.enough("flat_rounded-*", "wedge-*", "rounded_wedge-contact*")
 @pytest.mark.parametrize("name", ["load", "pressure", "L_N", "contact", "contact_at_tilt"])
 @pytest.mark.parametrize("body", ["wedge", "flat_rounded", "rounded_wedge", "quartic"])
 def test_contacts_are_within_their_bounds(body: str, name: str) -> None:
@@ -23,6 +24,7 @@ def test_contacts_are_within_their_bounds(body: str, name: str) -> None:
         assert row.met and not row.lost, row
 
 
+@pytest.mark.enough("flat_rounded-*")
 @pytest.mark.parametrize("name", [n for n in NAMES if n.startswith(("stick", "shear", "march"))])
 @pytest.mark.parametrize("body", ["wedge", "flat_rounded"])
 def test_cycles_are_within_their_bounds(body: str, name: str) -> None:

@@ -61,6 +61,7 @@ INTEGRATED = {
 }
 
 
+@pytest.mark.enough("1.5-1.25-*")
 @pytest.mark.parametrize("body", INTEGRATED)
 @pytest.mark.parametrize(("a", "c"), [(1.5, 1.25), (0.25, 2.0), (-0.125, 1.5)])
 def test_definitions_are_the_sheets_formulas(body: str, a: float, c: float) -> None:

@@ -62,6 +62,9 @@ def draws(name: str, elements: int, count: int, seed: int = 0) -> Draws:
     return Draws(edge, K_N, (edge_covered, K_covered), warned, known)
 
 
+@pytest.mark.enough(
+    "hertz-20-0", "wedge-40-0", "flat_rounded-20-0", "hyperbola-*", "circular_arc-*"
+)
 @pytest.mark.parametrize(
     ("name", "elements", "seed"),
     [*((name, n, 0) for name in BODIES for n in (20, 40)), *((name, 40, 4242) for name in JUDGES)],
@@ -74,6 +77,7 @@ def test_the_error_stated_covers_the_truth(name: str, elements: int, seed: int) 
         assert np.sum(covered) >= 55
 
 
+@pytest.mark.enough("40-*")
 @pytest.mark.parametrize(
     ("elements", "limit", "wedge"), [(20, 0.12, 0.25), (40, 0.08, 0.18), (80, 0.05, 0.1)]
 )

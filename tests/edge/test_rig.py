@@ -113,6 +113,7 @@ def test_shear_the_other_way_is_turned() -> None:
 # ---------------------------------------------------------------- the promise
 
 
+@pytest.mark.enough("left-True", "right-False")
 @pytest.mark.parametrize("moving", [False, True])
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_slip_zones_agree_to_the_second_order(side: str, moving: bool) -> None:

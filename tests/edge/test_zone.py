@@ -7,15 +7,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from derive.library import library
 from generated import edge, hertz, wedge
 from generated.edge import OtherEdge, Pressure, slip_zone
 from generated.runtime.types import Contact
 
-BODIES = (
-    *("catenary", "circular_arc", "flat_rounded", "flat_sloped", "hertz", "hyperbola", "power"),
-    *("parabola_quartic", "quartic", "rounded_wedge", "two_radii", "unequal_wedge", "wedge"),
-    "wedge_parabola",
-)
 F = 0.5
 
 
@@ -47,7 +43,7 @@ CASES = [
 
 @pytest.mark.enough("hertz-*", "wedge-*", "flat_sloped-*", "power-*", "unequal_wedge-*")
 @pytest.mark.parametrize("order", [1, 2, 3])
-@pytest.mark.parametrize("name", BODIES)
+@pytest.mark.parametrize("name", library())
 def test_with_both_edges_it_is_the_bodys_own(name: str, order: int) -> None:
     body = importlib.import_module(f"generated.{name}")
     law, a, c, dQ = law_of(body)

@@ -1,4 +1,5 @@
-"""Every body of the library: there and back over 24 decades, mirrors, scales."""
+"""Every body of the library: what mechanics demands of pressure and full stick, there and back over
+24 decades, mirrors, scales."""
 
 import importlib
 from types import ModuleType
@@ -12,7 +13,7 @@ from numpy.testing import assert_allclose
 
 from derive.library import load_geometry
 from derive.units import parse_unit
-from generated import two_radii
+from generated import full_stick, two_radii
 
 pytestmark = pytest.mark.slow
 
@@ -64,6 +65,68 @@ def states(name: str) -> tuple[Any, Any]:
         width = 10 ** rng.uniform(-12, WIDEST.get(name, 12.0), COUNT)
         middle = width * rng.uniform(-0.45, 0.45, COUNT)
     return width / 2 - middle, width / 2 + middle
+
+
+def kinks(name: str) -> Any:
+    body = module(name)
+    return body._BODY.functions["breaks"](np.array([OWN[name][key] for key in body._BODY.names]))
+
+
+# ------------------------------------------------------------------ pressure and full stick
+
+
+@EVERY
+def test_pressure_is_positive_inside_and_zero_outside(name: str) -> None:
+    body, given, (a, c) = module(name), {"E_star": E_STAR, **OWN[name]}, states(name)
+    share, h = 10 ** np.random.default_rng(6).uniform(-9, np.log10(0.5), COUNT), a + c
+    for x in (h * share - a, c - h * share):
+        assert np.all(body.pressure(x, a, c, **given) > 0)
+    for x in (-a - 1e-9 * h, -a, c, c + 1e-9 * h):
+        assert not np.any(body.pressure(x, a, c, **given))
+
+
+@EVERY
+def test_pressure_carries_load_and_moment(name: str) -> None:
+    """By the double-exponential rule between edges and kinks."""
+    own, a, c = shrunk(name)
+    body, given, t = module(name), {"E_star": E_STAR, **own}, np.arange(-3, 3.01, 1 / 16)
+    y = np.pi / 2 * np.sinh(t)
+    place, weight = np.tanh(y), np.pi / 32 * np.cosh(t) / np.cosh(y) ** 2
+    for edges in zip(a, c, strict=True):
+        cuts = np.sort([-edges[0], *kinks(name), edges[1]])
+        mid, half = (cuts[1:] + cuts[:-1])[:, None] / 2, np.diff(cuts)[:, None] / 2
+        x = mid + half * place
+        part = half * weight * body.pressure(x, *edges, **given)
+        load = body.load(*edges, **given)
+        assert_allclose(np.sum(part), load, rtol=1e-9)
+        off = np.sum(-x * part) - body.moment(*edges, **given)
+        assert abs(off) <= 1e-9 * load * max(edges)
+
+
+@EVERY
+def test_pressure_next_to_an_edge_is_its_series(name: str) -> None:
+    """p = K_N sqrt(s) + L_N s**(3/2) + ..., the rest of the order of (s/h)**2 of the first."""
+    own, a, c = shrunk(name)
+    body, given, s = module(name), {"E_star": E_STAR, **own}, (a + c) * 2.0**-17
+    series = (getattr(body, function)(a, c, **given) for function in ("K_N", "L_N"))
+    for x, K, L in zip((s - a, c - s), *series, strict=True):
+        off = body.pressure(x, a, c, **given) - np.sqrt(s) * (K + L * s)
+        assert np.all(np.abs(off) <= 1e-7 * np.sqrt(s) * K)
+        assert np.all(np.abs(L * s) <= 1e-3 * K)
+
+
+def test_full_stick_next_to_an_edge_is_singular() -> None:
+    """dq = [dQ/pi - (dsigma/4)(x - mid)]/sqrt((a + x)(c - x)) ~ K_T/sqrt(s)."""
+    (a, c), rng = states("wedge"), np.random.default_rng(7)
+    h = a + c
+    shear, tension = h * rng.uniform(0.1, 10, COUNT), rng.uniform(-10, 10, COUNT)
+    K_T, s = full_stick.K_T(a, c, shear, tension), h * 2.0**-40
+    for from_middle, K in ((s - h / 2, K_T.left), (h / 2 - s, K_T.right)):
+        change = (shear / np.pi - tension / 4 * from_middle) / np.sqrt(s * (h - s))
+        assert np.all(np.abs(change * np.sqrt(s) - K) <= 1e-10 * np.max(np.abs(K_T), axis=0))
+
+
+# ------------------------------------------------------------------ the contact from loads
 
 
 @EVERY

@@ -185,7 +185,7 @@ def close(found: float, wanted: mpf, size: mpf) -> bool:
     return bool(abs(mpf(float(found)) - wanted) <= 1e-12 * size)
 
 
-@pytest.mark.enough("one_side_cubic", "lopsided")
+@pytest.mark.enough("one_side_cubic")
 def test_every_function_against_quadrature_of_the_slope(made: tuple[Profile, ModuleType]) -> None:
     profile, module = made
     given = {"E_star": E_STAR, **values(profile)}
@@ -213,7 +213,7 @@ def test_narrow_contacts_around_a_kink_keep_their_digits(made: tuple[Profile, Mo
         demanded(profile, module, half - mid, half + mid, mid + half / 4, digits=80)
 
 
-@pytest.mark.enough("one_side_cubic", "lopsided")
+@pytest.mark.enough("one_side_cubic")
 def test_the_edge_coefficients_against_the_pressure_next_to_the_edges(
     made: tuple[Profile, ModuleType],
 ) -> None:

@@ -1,15 +1,13 @@
 """What a claim may say beside its equation: where it is true or tends, what it follows from."""
 
-import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import mpmath
 import pytest
-from click.testing import CliRunner
 from sympy import Symbol, symbols
 
-from derive.cli import main
 from derive.paper.claim import Claim, Verdict
 from derive.paper.diagnosis import named
 from derive.paper.dimensions import Units
@@ -18,6 +16,7 @@ from derive.paper.report import explanation, summary
 from derive.paper.verdict import Finding, Judged
 from derive.shelf import MARK
 from derive.units import parse_unit
+from tests.paper import asking
 
 HEAD = """
 body = "hertz"
@@ -38,21 +37,19 @@ t = ""
 """
 
 
-def told(folder: Path, printed: str, more: str = "", before: str = "") -> dict[str, str]:
+def told(folder: Path, printed: str, more: str = "", before: str = "") -> dict[str, Any]:
     """The last claim of a file."""
-    path = folder / "claims.toml"
-    claim = f'{before}[[claims]]\nlabel = "it"\nprinted = {json.dumps(printed)}\n{more}\n'
-    path.write_text(HEAD + claim)
-    done = CliRunner().invoke(main, ["check", str(path), "--format", "json"])
-    assert done.exit_code in (0, 1), done.output
-    found: dict[str, str] = json.loads(done.stdout)[-1]
-    return found
+    return asking.told(folder, HEAD + before + asking.claim(printed, more))[-1]
 
 
 # By hand: p = p_0 sqrt(1 - x**2/a**2) is p_0 sqrt(2 t/a) (1 - t/(4 a) ...) at t from an edge.
+# The sum of 1/k**2 is pi**2/6; the principal value of 1/(s - x) over [-3, 3] is
+# log((3 - x)/(3 + x)), and that of p(s)/(x - s) over the contact pi E* x/(2 R).
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("printed", "more", "verdict"),
     [
+        # what tends where
         ("p ~ K*sqrt(a + x)", "as = 'a + x -> 0'", "numerical"),
         ("p ~ p_0*sqrt(2*(a - x)/a)", "as = 'x -> a'", "numerical"),
         ("p ~ 2*K*sqrt(a + x)", "as = 'a + x -> 0'", "fails"),
@@ -61,11 +58,44 @@ def told(folder: Path, printed: str, more: str = "", before: str = "") -> dict[s
         ("sqrt(x**2 + a**2) ~ x", "as = 'x -> oo'", "numerical"),
         ("sin(b) ~ b", "as = 'b -> 0'", "numerical"),
         ("log(1/b) ~ 1/b", "as = 'b -> 0'", "fails"),
+        # where and of what it is said
+        ("sqrt((w - b)**2) = w - b", "require = 'b < w'", "numerical"),
+        ("sqrt((w - b)**2) = w - b", "", "fails"),
+        ("sqrt((w - b)**2) = b - w", "require = ['b > w']", "numerical"),
+        ("abs(x) = x", "require = 'P > 0 and x > 0'", "numerical"),
+        ("p = p_0*sqrt(1 - x**2/a**2)", "", "holds"),  # at |x| < a, where the pressure is
+        ("stick_m(P, 0, b, 0) = sqrt(4*R*(P - b/(2*f))/(pi*E_star))", "", "holds"),
+        ("load(a, c) = P", "symbols = { c = 'a' }", "holds"),
+        ("P = load(a, a)", "", "by definition"),
+        ("load(a, w) = E_star*phi*sqrt(a*w)", "body = 'wedge'", "holds"),
+        ("load(a, a) = P", "body = { g = 'x**2/R', units = { R = 'm' } }", "by definition"),
+        ("load(a, a) = pi*E_star*a**2/(2*R)", "body = { g = 'x**2/R' }", "holds"),
+        (
+            "sinh(w)**2 + 1 = cosh(w)**2",
+            "body = 'none'\nsymbols = { P = '1', p = '1', K = '1' }",
+            "holds",
+        ),
+        # what papers say
+        ("diff(P, a) = pi*E_star*a/(2*R)", "", "holds"),
+        ("limit(abs(x)/x, x, 0) = 1", "", "unchecked"),  # -1 from the left
+        ("sum(1/k**2, k, 1, oo) = pi**2/6", "", "holds"),
+        ("Piecewise((x, x > 0), (-x, True)) = abs(x)", "", "numerical"),
+        ("integral(exp(t), t, -oo, 1) = exp(1)", "", "numerical"),
+        ("integral(t/(1 + t**2), t, -oo, oo) = 0", "", "unchecked"),
+        ("limit(atan(x), x, -oo) = -pi/2", "", "holds"),
+        ("pv(1/(s - x), s, -3, 3) = log((3 - x)/(3 + x))", "", "numerical"),
+        ("pv(1/(s - x), s, -3, 3) = log((3 + x)/(3 - x))", "", "fails"),
+        ("pv(pressure(s, a, a)/(x - s), s, -a, a) = pi*E_star*x/(2*R)", "", "numerical"),
+        ("pv(s, s, -a, a) = 0", "", "unchecked"),
+        ("p_0 = 0.564*sqrt(P*E_star/R)", "", "numerical"),  # 1/sqrt(pi) = 0.56419
+        ("p_0 = 0.565*sqrt(P*E_star/R)", "", "fails"),
     ],
 )
-def test_what_tends_where(tmp_path: Path, printed: str, more: str, verdict: str) -> None:
+def test_what_is_said_beside_an_equation(
+    tmp_path: Path, printed: str, more: str, verdict: str
+) -> None:
     found = told(tmp_path, printed, more)
-    assert found["verdict"] == verdict
+    assert found["verdict"] == verdict, found["reason"]
     if printed == "p ~ 2*K*sqrt(a + x)":
         assert found["corrected"] == "p ~ K*sqrt(a + x)"
 
@@ -84,13 +114,9 @@ def test_a_geometry_file_is_a_body_and_is_not_executed(
     """g = x**2/(4 half) is a cylinder of radius 2 half: P = pi E* a**2/(4 R)."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "own.py").write_text(GEOMETRY)
-    path = tmp_path / "claims.toml"
-    path.write_text(
-        'body = "own.py"\n[variables]\na = "half-width"\n[[claims]]\nlabel = "it"\n'
-        'printed = "load(a, a) = pi*E_star*a**2/(8*half)"\n'
-    )
-    done = CliRunner().invoke(main, ["check", str(path), "--format", "json"])
-    assert json.loads(done.stdout)[0]["verdict"] == "holds"
+    head = 'body = "own.py"\n[variables]\na = "half-width"\n'
+    (it,) = asking.told(tmp_path, head + asking.claim("load(a, a) = pi*E_star*a**2/(8*half)"))
+    assert it["verdict"] == "holds"
     assert not (tmp_path / "executed").exists()
 
 
@@ -108,66 +134,9 @@ def test_a_geometry_file_is_a_body_and_is_not_executed(
 )
 def test_a_geometry_file_that_is_none(tmp_path: Path, text: str, why: str) -> None:
     (tmp_path / "own.py").write_text(text)
-    (tmp_path / "claims.toml").write_text(
-        'body = "own.py"\n[[claims]]\nlabel = "it"\nprinted = "f = f"\n'
-    )
-    done = CliRunner().invoke(main, ["check", str(tmp_path / "claims.toml")])
+    done = asking.run(asking.written(tmp_path, 'body = "own.py"\n' + asking.claim("f = f")))
     assert done.exit_code == 2
     assert why in done.output
-
-
-@pytest.mark.parametrize(
-    ("printed", "more", "verdict"),
-    [
-        ("sqrt((w - b)**2) = w - b", "require = 'b < w'", "numerical"),
-        ("sqrt((w - b)**2) = w - b", "", "fails"),
-        ("sqrt((w - b)**2) = b - w", "require = ['b > w']", "numerical"),
-        ("abs(x) = x", "require = 'P > 0 and x > 0'", "numerical"),
-        ("p = p_0*sqrt(1 - x**2/a**2)", "", "holds"),  # at |x| < a, where the pressure is
-        ("stick_m(P, 0, b, 0) = sqrt(4*R*(P - b/(2*f))/(pi*E_star))", "", "holds"),
-        ("load(a, c) = P", "symbols = { c = 'a' }", "holds"),
-        ("P = load(a, a)", "", "by definition"),
-        ("load(a, w) = E_star*phi*sqrt(a*w)", "body = 'wedge'", "holds"),
-        ("load(a, a) = P", "body = { g = 'x**2/R', units = { R = 'm' } }", "by definition"),
-        ("load(a, a) = pi*E_star*a**2/(2*R)", "body = { g = 'x**2/R' }", "holds"),
-        (
-            "sinh(w)**2 + 1 = cosh(w)**2",
-            "body = 'none'\nsymbols = { P = '1', p = '1', K = '1' }",
-            "holds",
-        ),
-    ],
-)
-def test_where_and_of_what_it_is_said(
-    tmp_path: Path, printed: str, more: str, verdict: str
-) -> None:
-    found = told(tmp_path, printed, more)
-    assert found["verdict"] == verdict, found["reason"]
-
-
-# By hand: sum of 1/k**2 is pi**2/6; the principal value of 1/(s - x) over [-3, 3] is
-# log((3 - x)/(3 + x)), and that of p(s)/(x - s) over the contact pi E* x/(2 R).
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("printed", "verdict"),
-    [
-        ("diff(P, a) = pi*E_star*a/(2*R)", "holds"),
-        ("limit(abs(x)/x, x, 0) = 1", "unchecked"),  # -1 from the left
-        ("sum(1/k**2, k, 1, oo) = pi**2/6", "holds"),
-        ("Piecewise((x, x > 0), (-x, True)) = abs(x)", "numerical"),
-        ("integral(exp(t), t, -oo, 1) = exp(1)", "numerical"),
-        ("integral(t/(1 + t**2), t, -oo, oo) = 0", "unchecked"),
-        ("limit(atan(x), x, -oo) = -pi/2", "holds"),
-        ("pv(1/(s - x), s, -3, 3) = log((3 - x)/(3 + x))", "numerical"),
-        ("pv(1/(s - x), s, -3, 3) = log((3 + x)/(3 - x))", "fails"),
-        ("pv(pressure(s, a, a)/(x - s), s, -a, a) = pi*E_star*x/(2*R)", "numerical"),
-        ("pv(s, s, -a, a) = 0", "unchecked"),
-        ("p_0 = 0.564*sqrt(P*E_star/R)", "numerical"),  # 1/sqrt(pi) = 0.56419
-        ("p_0 = 0.565*sqrt(P*E_star/R)", "fails"),
-    ],
-)
-def test_what_papers_say(tmp_path: Path, printed: str, verdict: str) -> None:
-    found = told(tmp_path, printed)
-    assert found["verdict"] == verdict, found["reason"]
 
 
 MODULI = """
@@ -245,15 +214,13 @@ def test_units_of_symbols_that_nobody_knows() -> None:
 
 
 def test_the_page_holds_every_claim(tmp_path: Path) -> None:
-    path = tmp_path / "claims.toml"
     claims = (
         '[[claims]]\nlabel = "right"\nprinted = "P = pi*E_star*a**2/(4*R)"\n'
         "[[claims]]\nlabel = \"<script>\"\nlatex = 'p_0 = \\frac{P}{\\pi a} \\text{<script>}'\n"
         'printed = "x"\nunchecked = "not yet"\n'
         '[[claims]]\nlabel = "wrong"\nprinted = "P = E_star*a**2/(5*R)"\n'
     )
-    path.write_text(HEAD + claims)
-    done = CliRunner().invoke(main, ["check", str(path), "--format", "html"])
+    done = asking.run(asking.written(tmp_path, HEAD + claims), "--format", "html")
     assert done.exit_code == 1
     page = done.stdout
     assert "<script" not in page

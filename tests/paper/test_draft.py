@@ -8,11 +8,13 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import CliRunner
 
 from derive.cli import main
 from derive.paper.displays import displays
 from derive.paper.statements import statements
+from tests.paper import asking
+from tests.paper.asking import run
 
 ROOT = Path(__file__).parents[2]
 
@@ -36,14 +38,8 @@ K_T &= \frac{\pm Q}{\pi}
 """
 
 
-def run(*arguments: str, answers: str = "") -> Result:
-    return CliRunner().invoke(main, ["check", *arguments], input=answers, catch_exceptions=False)
-
-
 def written(folder: Path, text: str) -> Path:
-    path = folder / "paper.tex"
-    path.write_text(text, encoding="utf-8")
-    return path
+    return asking.written(folder, text, "paper.tex")
 
 
 def test_displays_are_numbered_as_latex_numbers_them(tmp_path: Path) -> None:
@@ -65,7 +61,7 @@ def test_displays_are_numbered_as_latex_numbers_them(tmp_path: Path) -> None:
 
 def test_a_draft_says_what_was_read_and_judges_nothing(tmp_path: Path) -> None:
     new = tmp_path / "draft.toml"
-    done = run(str(written(tmp_path, PAPER)), "--draft", str(new))
+    done = run(written(tmp_path, PAPER), "--draft", new)
     assert done.exit_code == 0, done.output
     assert "eq. (5), paper.tex" in done.output
     data = tomllib.loads(new.read_text())
@@ -75,7 +71,7 @@ def test_a_draft_says_what_was_read_and_judges_nothing(tmp_path: Path) -> None:
     assert {"P", "p_at_x", "K_T", "Q"} <= data["symbols"].keys()
     assert data["symbols"]["P"]["proposal"] == "load(a, c)"
     assert "understood" not in claims["(5)"]
-    told = json.loads(run(str(new), "--format", "json").stdout)
+    told = json.loads(run(new, "--format", "json").stdout)
     assert {each["verdict"] for each in told} == {"unchecked"}
     assert all(each["reason"] for each in told)
 
@@ -89,16 +85,16 @@ def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: s
 
     paper, claims, table = written(tmp_path, PAPER), tmp_path / "new.toml", tmp_path / "new.csv"
     if command == "accept":
-        run(str(paper), "--draft", str(claims))
+        run(paper, "--draft", claims)
     before = {path: path.read_text() for path in tmp_path.iterdir()}
     monkeypatch.setattr(os, "fsync", full)
     if command == "edge":
         example = str(ROOT / "examples" / "edge_flat_rounded.csv")
         done = CliRunner().invoke(main, ["edge", example, "--f", "0.5", "--csv", str(table)])
     elif command == "accept":
-        done = run(str(claims), "--accept", answers="y\n" * 9)
+        done = run(claims, "--accept", answers="y\n" * 9)
     else:
-        done = run(str(paper), "--draft", str(claims))
+        done = run(paper, "--draft", claims)
     assert done.exit_code == 2
     (told,) = done.stderr.splitlines()
     assert str(table if command == "edge" else claims) in told and "free some space" in told
@@ -107,7 +103,7 @@ def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: s
 
 def test_a_draft_replaces_nothing(tmp_path: Path) -> None:
     paper = written(tmp_path, PAPER)
-    assert run(str(paper), "--draft", str(paper)).exit_code == 2
+    assert run(paper, "--draft", paper).exit_code == 2
     assert paper.read_text() == PAPER
 
 
@@ -143,7 +139,7 @@ In a line $a = \half{b}$ may stand.
 
 def test_a_draft_asks_where_it_is_not_sure(tmp_path: Path) -> None:
     new = tmp_path / "draft.toml"
-    done = run(str(written(tmp_path, PHYSICS)), "--draft", str(new), "--inline")
+    done = run(written(tmp_path, PHYSICS), "--draft", new, "--inline")
     assert done.exit_code == 0, done.output
     assert "p is a function elsewhere" in done.output
     assert "d/dx before its operand is not supported" in done.output
@@ -155,7 +151,7 @@ def test_a_draft_asks_where_it_is_not_sure(tmp_path: Path) -> None:
     assert data["symbols"]["P"]["meaning"] == "normal load"
     assert data["symbols"]["a"]["meaning"] == "half-width of the contact"
     assert data["symbols"]["P"]["unit"] == "N/m"
-    assert {each["verdict"] for each in json.loads(run(str(new), "--format", "json").stdout)} == {
+    assert {each["verdict"] for each in json.loads(run(new, "--format", "json").stdout)} == {
         "unchecked"
     }
 
@@ -172,7 +168,7 @@ def test_a_draft_asks_where_it_is_not_sure(tmp_path: Path) -> None:
 def test_hostile_latex_is_told_and_does_not_hang(body: str, tmp_path: Path) -> None:
     start = time.monotonic()
     text = rf"\begin{{document}}\begin{{equation}}{body}\end{{equation}}"
-    done = run(str(written(tmp_path, text)), "--draft", str(tmp_path / "new.toml"))
+    done = run(written(tmp_path, text), "--draft", tmp_path / "new.toml")
     assert done.exit_code == 0
     assert "not read: eq. (1)" in done.output
     assert time.monotonic() - start < 30
@@ -188,6 +184,6 @@ def test_hostile_latex_is_told_and_does_not_hang(body: str, tmp_path: Path) -> N
     ],
 )
 def test_a_file_that_cannot_be_drafted(text: str, part: str, tmp_path: Path) -> None:
-    done = run(str(written(tmp_path, text)), "--draft", str(tmp_path / "new.toml"))
+    done = run(written(tmp_path, text), "--draft", tmp_path / "new.toml")
     assert (done.exit_code, part in done.output) == (2, True), done.output
     assert not (tmp_path / "new.toml").exists()

@@ -9,7 +9,6 @@ Integrals by hand, for |w| < 1:
     int_0^3 sign(sin 5 s)   = (pi - pi + pi - pi + (15 - 4 pi))/5 = 3 - 4 pi/5
 """
 
-import json
 from pathlib import Path
 from time import monotonic
 
@@ -19,8 +18,8 @@ from derive.errors import BadClaimsFile
 from derive.limit import LimitReached
 from derive.paper.claim import Verdict
 from derive.paper.report import evidence
-from derive.paper.userfile import read_claims
-from derive.paper.verdict import Finding, check, is_carried
+from derive.paper.verdict import Finding, is_carried
+from tests.paper import asking
 
 pytestmark = pytest.mark.slow
 
@@ -36,10 +35,7 @@ GOOD = {Verdict.HOLDS, Verdict.NUMERICAL}
 
 
 def judged(folder: Path, printed: str, head: str = HEAD) -> Finding:
-    path = folder / "claims.toml"
-    claim = f'[[claims]]\nlabel = "it"\nprinted = {json.dumps(printed)}\n'
-    path.write_text(head + claim, encoding="utf-8")
-    return check(read_claims(path).claims[0])
+    return asking.judged(folder, head + asking.claim(printed))
 
 
 @pytest.fixture
@@ -122,8 +118,12 @@ def test_a_pole_inside_is_named_and_decides_nothing(tmp_path: Path, under: str) 
     assert "pole at s = " in evidence(finding)
 
 
+@pytest.mark.enough("A = l-*")
 @pytest.mark.usefixtures("unmended")
-def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("true", "false"), [("A = l", "A = r"), ("C = r", "C = l"), ("T = alpha", "T = -alpha")]
+)
+def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, true: str, false: str) -> None:
     head = """
     body = "unequal_wedge"
     [variables]
@@ -135,9 +135,8 @@ def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path) -> None:
     T = "contact_alpha(load(l, r), moment(l, r))"
     alpha = "tilt(l, r)"
     """
-    for true, false in (("A = l", "A = r"), ("C = r", "C = l"), ("T = alpha", "T = -alpha")):
-        assert judged(tmp_path, true, head).verdict in GOOD
-        assert judged(tmp_path, false, head).verdict == Verdict.FAILS
+    assert judged(tmp_path, true, head).verdict in GOOD
+    assert judged(tmp_path, false, head).verdict == Verdict.FAILS
 
 
 def test_how_far_was_looked_is_told(tmp_path: Path) -> None:

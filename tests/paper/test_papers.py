@@ -4,15 +4,13 @@ Each is drafted by the command, its symbols are filled in as a person would, all
 accepted, and what is judged is compared with what is known of the formulas by hand.
 """
 
-import json
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
-from derive.cli import main
+from tests.paper.asking import claim, run, told
 
 PAPERS = Path(__file__).parent / "papers"
 
@@ -100,43 +98,36 @@ def checked(name: str, folder: Path) -> dict[str, dict[str, str]]:
     filled = FILLED[name]
     new = folder / f"{name}.toml"
     paper = PAPERS / f"{name}.tex"
-    run("check", str(paper), "--draft", str(new))
+    run(paper, "--draft", new)
     text = new.read_text()
     for symbol in [*filled.symbols, *re.findall(r"^(\w+) =", filled.variables, re.MULTILINE)]:
         text = re.sub(rf"(?m)^{symbol} = .*\n", "", text, count=1)
-    told = "".join(f'{symbol} = "{formula}"\n' for symbol, formula in filled.symbols.items())
+    lines = "".join(f'{symbol} = "{formula}"\n' for symbol, formula in filled.symbols.items())
     text = text.replace("\n[variables] ", f"\n{filled.head}[variables] ", 1)
-    text = text.replace("\n[symbols]\n", f"\n{filled.variables}\n[symbols]\n{told}", 1)
+    text = text.replace("\n[symbols]\n", f"\n{filled.variables}\n[symbols]\n{lines}", 1)
     for label, given in filled.given.items():
         text = text.replace(f"label = '{label}'\n", f"label = '{label}'\ngiven = {given}\n")
     new.write_text(text)
-    run("check", str(new), "--accept", answers="y\n" * 40)
-    claims = json.loads(run("check", str(new), "--format", "json"))
-    return {claim["label"]: claim for claim in claims}
-
-
-def run(*arguments: str, answers: str = "") -> str:
-    done = CliRunner().invoke(main, list(arguments), input=answers, catch_exceptions=False)
-    assert done.exit_code in (0, 1), done.output
-    return done.stdout
+    run(new, "--accept", answers="y\n" * 40)
+    return {claim["label"]: claim for claim in told(folder, new.read_text())}
 
 
 @pytest.mark.slow
 @pytest.mark.enough("cattaneo", "cycle")
 @pytest.mark.parametrize("name", FILLED)
 def test_a_paper_from_latex_to_verdicts(name: str, tmp_path: Path) -> None:
-    told = checked(name, tmp_path)
+    found = checked(name, tmp_path)
     wrong = FILLED[name].wrong
-    for label, claim in told.items():
+    for label, it in found.items():
         if label in wrong:
-            assert claim["verdict"] == "fails", f"{label}: {claim['reason']}"
-            mended = f"{claim['corrected'] or ''} {claim['diagnosis'] or ''}"
+            assert it["verdict"] == "fails", f"{label}: {it['reason']}"
+            mended = f"{it['corrected'] or ''} {it['diagnosis'] or ''}"
             assert wrong[label].replace(" ", "") in mended.replace(" ", ""), f"{label}: {mended}"
             assert mended.strip(), label
         else:
-            assert claim["verdict"] in GOOD, f"{label}: {claim['verdict']}, {claim['reason']}"
-        assert not claim["units"], f"{label}: {claim['units']}"
-    assert wrong.keys() <= told.keys()
+            assert it["verdict"] in GOOD, f"{label}: {it['verdict']}, {it['reason']}"
+        assert not it["units"], f"{label}: {it['units']}"
+    assert wrong.keys() <= found.keys()
 
 
 UNITS = """
@@ -172,20 +163,15 @@ def test_a_factor_with_a_unit_that_is_dropped_or_doubled_is_named(
     factors = ("a", "R", "E_star", "P", "p_0", "sqrt(a)", "K")
     printed = [f"{left} = {right}"]
     printed += [f"{left} = ({right}){sign}{factor}" for factor in factors for sign in "*/"]
-    path = tmp_path / "units.toml"
     claims = "".join(
         f"[[claims]]\nlabel = '{n}'\nprinted = '{text}'\n" for n, text in enumerate(printed)
     )
-    path.write_text(UNITS + claims)
-    told = json.loads(run("check", str(path), "--format", "json"))
-    assert told[0]["units"] is None
-    assert all(claim["units"] for claim in told[1:])
-    assert told[0]["verdict"] == "unchecked"
+    first, *others = told(tmp_path, UNITS + claims)
+    assert first["units"] is None
+    assert all(claim["units"] for claim in others)
+    assert first["verdict"] == "unchecked"
 
 
 def test_the_term_that_does_not_fit_is_named(tmp_path: Path) -> None:
-    path = tmp_path / "units.toml"
-    claim = "[[claims]]\nlabel = 'x'\nprinted = 'Q = f*P + f*P*a'\n"
-    path.write_text(UNITS + claim)
-    (told,) = json.loads(run("check", str(path), "--format", "json"))
-    assert "P*a*f is in Pa m**2" in told["units"]
+    (it,) = told(tmp_path, UNITS + claim("Q = f*P + f*P*a"))
+    assert "P*a*f is in Pa m**2" in it["units"]

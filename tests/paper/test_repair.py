@@ -4,15 +4,14 @@ By hand, for a cylinder of radius R: p(0) = E* a/(2 R), P = pi E* a**2/(4 R), he
 E* P/(pi R), dP/da = pi E* a/(2 R).
 """
 
-import json
 from pathlib import Path
 
 import pytest
 
 from derive.paper.claim import Verdict
 from derive.paper.report import corrected, evidence, remarks
-from derive.paper.userfile import read_claims
-from derive.paper.verdict import Finding, check
+from derive.paper.verdict import Finding
+from tests.paper import asking
 
 HEAD = """
 body = "hertz"
@@ -30,12 +29,9 @@ q = "k*p_0"
 """
 
 
-def judged(folder: Path, printed: str, **more: object) -> Finding:
-    path = folder / "claims.toml"
-    entries = {"label": "it", "printed": printed, **more}
-    lines = [f"{key} = {json.dumps(value)}" for key, value in entries.items()]
-    path.write_text("\n".join([HEAD, "[[claims]]", *lines, ""]), encoding="utf-8")
-    return check(read_claims(path).claims[0])
+def judged(folder: Path, printed: str, end: str = "") -> Finding:
+    more = f'as = "{end}"' if end else ""
+    return asking.judged(folder, HEAD + asking.claim(printed, more))
 
 
 # ------------------------------------------------------------------ corrections
@@ -144,8 +140,8 @@ def test_a_branch_that_is_zero(tmp_path: Path) -> None:
 def test_a_limit_does_not_let_all_lengths_vanish(tmp_path: Path, end: str) -> None:
     """l = k a tends to a as k -> 1, and not as a -> 0."""
     printed = "a**2 - l**2 ~ {}*a*(a - l)"
-    assert judged(tmp_path, printed.format(2), **{"as": end}).verdict == Verdict.NUMERICAL
-    finding = judged(tmp_path, printed.format(3), **{"as": end})
+    assert judged(tmp_path, printed.format(2), end).verdict == Verdict.NUMERICAL
+    finding = judged(tmp_path, printed.format(3), end)
     assert finding.verdict == Verdict.FAILS
     assert corrected(finding) == "a**2 - l**2 ~ 2*a*(a - l)"
 
@@ -158,13 +154,13 @@ def test_trials_are_made_where_both_sides_are_real(tmp_path: Path) -> None:
 
 
 def test_a_limit_that_depends_on_what_moves_is_unchecked(tmp_path: Path) -> None:
-    finding = judged(tmp_path, "n + t*n ~ n", **{"as": "n*t -> 0"})
+    finding = judged(tmp_path, "n + t*n ~ n", "n*t -> 0")
     assert finding.verdict == Verdict.UNCHECKED
     assert "if n moves" in evidence(finding)
     assert "if t moves" in evidence(finding)
-    assert judged(tmp_path, "n + t*n ~ n", **{"as": "t -> 0"}).judged.good
+    assert judged(tmp_path, "n + t*n ~ n", "t -> 0").judged.good
 
 
 def test_a_limit_at_an_end_of_a_range_has_one_side(tmp_path: Path) -> None:
     """1 - k is never negative, since k is at most 1."""
-    assert judged(tmp_path, "abs(1 - k) ~ 1 - k", **{"as": "k -> 1"}).judged.good
+    assert judged(tmp_path, "abs(1 - k) ~ 1 - k", "k -> 1").judged.good

@@ -11,10 +11,13 @@ from tests.reference.solver import Case, reference
 
 COUNTS, STEPS = (12, 24, 48), (1, 2, 4)
 
+EACH = pytest.mark.parametrize("known", CLOSED, ids=lambda known: known.name)
+SOME = pytest.mark.enough("Hertz, moderate, P and M vary", "tilted wedge, large")
 
-@pytest.mark.enough("tilted wedge, large*")
-@pytest.mark.parametrize("known", CLOSED, ids=lambda known: known.name)
+
 @pytest.mark.slow
+@SOME
+@EACH
 def test_the_error_is_small_of_second_order_and_within_the_estimate(known: Known) -> None:
     found, exact = reference(known.case, COUNTS, STEPS), known.exact
     errors = np.abs(np.subtract(found.zones, exact))
@@ -47,16 +50,17 @@ def test_moderate_conditions_are_the_contact_at_lower_load_and_other_tilt(known:
     assert known.exact == pytest.approx((half - middle, half + middle), rel=1e-8)
 
 
-@pytest.mark.enough("tilted wedge, large*")
-@pytest.mark.parametrize("known", CLOSED, ids=lambda known: known.name)
 @pytest.mark.slow
+@SOME
+@EACH
 def test_slip_grows_all_through_both_half_cycles(known: Known) -> None:
     for half in (known.half_cycle, known.half_cycle.back()):
         assert premise(half, known.kappa, known.exact) is Premise.HOLDS
 
 
 @pytest.mark.slow
-def test_conditions_of_the_other_regime_do_not_hold() -> None:
-    for known in CLOSED:
-        other = known.half_cycle.exact(-known.kappa)
-        assert premise(known.half_cycle, -known.kappa, other) is not Premise.HOLDS
+@SOME
+@EACH
+def test_conditions_of_the_other_regime_do_not_hold(known: Known) -> None:
+    other = known.half_cycle.exact(-known.kappa)
+    assert premise(known.half_cycle, -known.kappa, other) is not Premise.HOLDS

@@ -18,12 +18,7 @@ from tests.reference.solver import level, reference
 COUNTS, STEPS = (12, 24, 48), (8, 12, 16)
 
 
-def slow(*values: object) -> object:
-    """A cycle that `make quick` leaves out."""
-    return pytest.param(*values, marks=pytest.mark.slow)
-
-
-@pytest.mark.enough("0.02-3.0")
+@pytest.mark.thorough  # test_closed_cases.py has cycles in which it holds
 @pytest.mark.slow
 @pytest.mark.parametrize(("span", "part"), [(0.02, 3.0), (0.05, 2.0), (0.2, 3.0)])
 def test_where_the_premise_holds_the_conditions_do(span: float, part: float) -> None:
@@ -32,13 +27,14 @@ def test_where_the_premise_holds_the_conditions_do(span: float, part: float) -> 
     assert point.off(point.large.zone) <= point.estimate < 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.enough("M0-*")
 @pytest.mark.parametrize(
     ("M", "part", "why"),
     [
-        slow((-0.01, 0.01), 1.2, Premise.SHRINKS),  # slip reverses on the right
-        slow((-0.2, 0.2), 5.0, Premise.BEYOND),  # the pressure falls faster than the shear traction
-        slow((-0.1, 0.3), 5.0, Premise.SHRINKS),
+        ((-0.01, 0.01), 1.2, Premise.SHRINKS),  # slip reverses on the right
+        ((-0.2, 0.2), 5.0, Premise.BEYOND),  # the pressure falls faster than the shear traction
+        ((-0.1, 0.3), 5.0, Premise.SHRINKS),
     ],
 )
 def test_where_the_premise_fails_the_conditions_do(
@@ -77,7 +73,7 @@ def test_zones_that_grow_are_not_enough() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("part", "regime"),
-    [slow(0.931, "moderate"), slow(0.94, "turns round"), (1.08, "turns round"), slow(1.1, "large")],
+    [(0.931, "moderate"), (0.94, "turns round"), (1.08, "turns round"), (1.1, "large")],
 )
 def test_the_regime_at_constant_loads(part: float, regime: str) -> None:
     known = cycle(part * threshold())
@@ -87,13 +83,14 @@ def test_the_regime_at_constant_loads(part: float, regime: str) -> None:
     assert np.all(np.abs(np.subtract(found.zone, zone)) <= found.error)
 
 
+@pytest.mark.slow
 @pytest.mark.enough("point1-*")
 @pytest.mark.parametrize(
     ("point", "kind"),
     [
-        slow(Point(0.5, 0.0, 0.3), Kind.STICKS),
-        slow(Point(1.2, 0.0, 0.1), Kind.AHEAD),
-        slow(Point(1.0, 0.0, 0.0, 0.005), Kind.OPEN),
+        (Point(0.5, 0.0, 0.3), Kind.STICKS),
+        (Point(1.2, 0.0, 0.1), Kind.AHEAD),
+        (Point(1.0, 0.0, 0.0, 0.005), Kind.OPEN),
     ],
 )
 def test_where_there_is_no_zone_the_solver_tells_the_kind(point: Point, kind: Kind) -> None:

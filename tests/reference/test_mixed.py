@@ -14,7 +14,7 @@ from tests.reference.solver import level, reference
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.enough("1.0")
+@pytest.mark.thorough  # test_explore.py has one such cycle
 @pytest.mark.parametrize("part", [0.95, 1.0, 1.05, 1.085])
 def test_wedge(part: float) -> None:
     known = cycle(part * threshold())

@@ -10,8 +10,7 @@ from generated.runtime.slip import bounded
 from generated.runtime.slip.bounded import Slip, Zone
 from generated.runtime.slip.quadrature import slip_nodes
 
-from .laws import flat_rounded, hertz, wedge
-from .test_moderate import solved
+from .laws import flat_rounded, hertz, solved, wedge
 
 LEVEL = 2
 

@@ -9,8 +9,7 @@ from generated.runtime.history import elements as of
 from generated.runtime.history.elements import TERMS, influence, inverse_of
 from generated.runtime.kernels import LOOP, kernel, opened
 
-from .laws import hertz, wedge
-from .test_moderate import solved
+from .laws import hertz, solved, wedge
 
 ENDS = np.concatenate([np.linspace(-1, 0.5, 25), np.linspace(0.5, 1, 33)[1:]])
 WIDTHS = np.diff(ENDS)

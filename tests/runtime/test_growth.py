@@ -11,8 +11,7 @@ import pytest
 from generated.runtime.kernels import LOOP, kernel, opened
 from generated.runtime.slip import growth
 
-from .laws import hertz
-from .test_moderate import solved, state
+from .laws import hertz, solved, state
 
 F = 0.5
 

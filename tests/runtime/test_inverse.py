@@ -8,7 +8,7 @@ import pytest
 from generated.runtime import inverse
 from generated.runtime.forward import each_contact, each_contact_at_tilt
 from generated.runtime.kernels import BREAKS, LOOP, SLOPE, STATE, Law, handed, kernel, opened
-from tests.runtime.laws import Case, flat_rounded, hertz, wedge
+from tests.runtime.laws import Case, flat_rounded, hertz, solved, wedge
 
 # ---------------------------------------------------------------- a cylinder cut off at x = -1, 1
 
@@ -45,23 +45,16 @@ def _each_level(law, given, own, out):
         out[i, 0] = inverse.level(law, own[i], given[i, 0])
 
 
-def solved(case, P, second, loop=each_contact):
-    given = np.stack(np.broadcast_arrays(np.asarray(P, float), second), axis=1)
-    out = np.empty((len(given), 3))
-    loop(case.law, given, np.tile(case.own, (len(given), 1)), out)
-    return out.T
+def contact(case, P, second, loop=each_contact):
+    return solved(loop, case, np.stack(np.broadcast_arrays(P, second), axis=1), 3).T
 
 
 def at_tilt(case, P, alpha):
-    return solved(case, P, alpha, each_contact_at_tilt)[:2]
+    return contact(case, P, alpha, each_contact_at_tilt)[:2]
 
 
 def level(case, *tilts):
-    return solved(case, tilts, 0.0, _each_level)[0]
-
-
-def states(case, a, c):
-    return np.array([case.functions.state(*edges, case.own) for edges in zip(a, c, strict=True)]).T
+    return contact(case, tilts, 0.0, _each_level)[0]
 
 
 def spread(low, high, count=200, seed=0):
@@ -78,7 +71,7 @@ def test_of_a_wedge():
     P, lean = abs(spread(-12, 12)), spread(-9, 6, seed=1)
     root = np.hypot(2 * lean, 1.0)
     far = P * (np.abs(2 * lean) + root)
-    a, c, alpha = solved(wedge, P, P * P * lean)
+    a, c, alpha = contact(wedge, P, P * P * lean)
     np.testing.assert_allclose(np.maximum(a, c), far, rtol=1e-14)
     np.testing.assert_allclose(np.minimum(a, c), P * P / far, rtol=1e-12)
     assert np.array_equal(a > c, lean > 0)
@@ -101,7 +94,7 @@ def test_a_contact_hangs_on_one_shoulder():
     """A cylinder alone then: centre b + alpha R away."""
     R, b = flat_rounded.own
     P, centre = 0.01, np.array([1.5, -1.5, 40.0])
-    a, c, alpha = solved(flat_rounded, P, -P * centre)
+    a, c, alpha = contact(flat_rounded, P, -P * centre)
     assert np.all((c < -b) | (a < -b))
     np.testing.assert_allclose((c - a) / 2, centre, rtol=1e-12)
     np.testing.assert_allclose(a + c, 4 * math.sqrt(R * P / math.pi), rtol=1e-10)
@@ -111,7 +104,7 @@ def test_a_contact_hangs_on_one_shoulder():
 def test_edges_lie_just_beyond_kinks():
     """P = (2 sqrt(2)/3) b**2 (a/b - 1)**1.5/R to first order; the test's law loses the rest."""
     P = 2 * math.sqrt(2) / 3 * 1e-5**1.5
-    ((a,), (c,), (alpha,)) = solved(flat_rounded, [P], 0.0)
+    ((a,), (c,), (alpha,)) = contact(flat_rounded, [P], 0.0)
     assert a == pytest.approx(c, abs=1e-13) and alpha == pytest.approx(0.0, abs=1e-12)
     assert a - 1 == pytest.approx(1e-5, rel=1e-5)
 
@@ -122,13 +115,13 @@ def test_edges_lie_just_beyond_kinks():
 def test_there_is_no_contact():
     bad = [0.0, -1.0, math.inf, math.nan]
     for case in (hertz, wedge, flat_rounded):
-        assert np.all(np.isnan(solved(case, bad, 0.1))) and np.all(np.isnan(at_tilt(case, bad, 0)))
-        assert np.all(np.isnan(solved(case, 1.0, [math.inf, math.nan])))
+        assert np.all(np.isnan(contact(case, bad, 0.1))) and np.all(np.isnan(at_tilt(case, bad, 0)))
+        assert np.all(np.isnan(contact(case, 1.0, [math.inf, math.nan])))
         assert np.all(np.isnan(at_tilt(case, 1.0, [math.inf, math.nan])))
     assert np.all(np.isnan(at_tilt(wedge, 1.0, [1.0, -1.0, 2.0, -1e9])))
     # longer than lengths count; an edge far from the origin is rounded off
-    assert np.all(np.isnan(solved(wedge, [1e76, 1e-76], 0.0)))
-    assert np.all(np.isnan(solved(hertz, 1.0, [1e14])))
+    assert np.all(np.isnan(contact(wedge, [1e76, 1e-76], 0.0)))
+    assert np.all(np.isnan(contact(hertz, 1.0, [1e14])))
 
 
 def test_a_body_ends():
@@ -137,7 +130,7 @@ def test_a_body_ends():
     half = 2 * np.sqrt(P / math.pi)
     fits = half + np.abs(centre) < 1
     assert 100 < fits.sum() < 280
-    for a, c in (solved(cut, P, -P * centre)[:2], at_tilt(cut, P, -centre)):
+    for a, c in (contact(cut, P, -P * centre)[:2], at_tilt(cut, P, -centre)):
         assert np.array_equal(np.isnan(a), ~fits)
         np.testing.assert_allclose(a[fits], (half - centre)[fits], atol=1e-12)
         np.testing.assert_allclose(c[fits], (half + centre)[fits], atol=1e-12)
@@ -176,7 +169,7 @@ def test_from_brackets_alone_it_is_the_same(plain):
         breaks = law.breaks(own)
         by_moment = inverse.Target(P, -M / P, 0.0, False)
         by_tilt = inverse.Target(P, inverse.level(law, own, M), M, True)
-        wanted = solved(case, [P], M)[:2, 0], at_tilt(case, [P], M)[:, 0]
+        wanted = contact(case, [P], M)[:2, 0], at_tilt(case, [P], M)[:, 0]
         for target, edges in zip((by_moment, by_tilt), wanted, strict=True):
             if not math.isnan(target.place):
                 with np.errstate(all="ignore"):  # plain Python, which has no errors in kernels

@@ -6,8 +6,7 @@ import pytest
 
 from generated.runtime.types import LARGE
 
-from .laws import flat_rounded, hertz, wedge
-from .test_moderate import state, zone
+from .laws import flat_rounded, hertz, state, wedge, zone
 
 CYCLES = {
     "cylinder": (hertz, (1.1, 0.9, 1.1, 0.9, 0.1, 0.5, 0.5)),

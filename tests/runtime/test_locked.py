@@ -12,7 +12,7 @@ from generated.runtime.slip.locked import holds_load
 from generated.runtime.slip.zone import ends_of
 from generated.runtime.types import FULL_STICK, LARGE, MODERATE
 
-from .laws import hertz
+from .laws import hertz, solved
 
 F = 0.5
 GIVEN = {"f": F, "E_star": 1.0, "R": 1.0}
@@ -31,10 +31,7 @@ def _each(law, given, own, out):
 
 
 def carries(cycle, m, n, regime, Q):
-    rows = np.array([[*cycle, m, n, regime, Q]], dtype=float)
-    out = np.empty((1, 1))
-    _each(hertz.law, rows, hertz.own[None, :].copy(), out)
-    return bool(out[0, 0])
+    return bool(solved(_each, hertz, [*cycle, m, n, regime, Q], 1))
 
 
 def demand_limits(cycle, m, n, regime, lowest, highest):

@@ -8,9 +8,8 @@ import pytest
 from generated.runtime.slip import march as kernels
 from generated.runtime.types import Regime
 
-from .laws import flat_rounded, hertz, wedge
-from .test_moderate import zone
-from .test_series import patch, state
+from .laws import flat_rounded, hertz, state, wedge, zone
+from .test_series import patch
 
 F = 0.5
 T = np.arange(16) * np.pi / 8

@@ -1,7 +1,7 @@
-"""Slip that turns round: the boundary-element solver's zones, large tension, symmetry.
+"""Slip that turns round: the boundary-element solver's zones, large tension.
 
-Another solution and the moderate neighbour are in tests/generated/test_turning.py, plain Python is
-in test_cycle.py.
+Another solution and the moderate neighbour are in tests/generated/test_turning.py, mirrors and
+scales in test_stick.py beside it, plain Python is in test_cycle.py.
 """
 
 import numpy as np
@@ -15,6 +15,7 @@ from generated.runtime.slip.march import large_zone
 from generated.runtime.slip.mixed import mixed_zone
 
 from . import laws
+from .laws import solved, state
 
 F = 0.5
 
@@ -38,17 +39,9 @@ def cycles(case, a, c, shear, tension):
     """dQ in parts of 2 f P, tension of 8 dQ/(pi h)."""
     a, c, shear, tension = np.broadcast_arrays(a, c, shear, tension)
     edges = zip(a.flat, c.flat, strict=True)
-    load = [case.functions.state(float(u), float(v), case.own)[0] for u, v in edges]
+    load = [state(case, u, v)[0] for u, v in edges]
     dQ = 2 * F * shear * np.reshape(load, a.shape)
-    rows = np.stack([a, c, dQ, tension * 8 * dQ / (np.pi * (a + c))], axis=-1)
-    return np.ascontiguousarray(rows.reshape(-1, 4), dtype=float)
-
-
-def zones(case, given, own=None):
-    own = np.tile(case.own if own is None else own, (len(given), 1))
-    out = np.empty((len(given), 6))
-    each_zone(case.law, given, own, out)
-    return out
+    return np.stack([a, c, dQ, tension * 8 * dQ / (np.pi * (a + c))], axis=-1).reshape(-1, 4)
 
 
 def test_the_boundary_element_solver_finds_the_same():
@@ -61,7 +54,7 @@ def test_the_boundary_element_solver_finds_the_same():
     }
     given = np.array([[1.0, 1.0, 0.15, part * 0.206021] for part in found])
     for (m, n), (m_there, n_there, off) in zip(
-        zones(laws.wedge, given)[:, :2], found.values(), strict=True
+        solved(each_zone, laws.wedge, given, 6)[:, :2], found.values(), strict=True
     ):
         assert abs(m - m_there) <= off and abs(n - n_there) <= off
 
@@ -72,30 +65,14 @@ def test_it_goes_over_into_large_tension(name):
     case, a, c = getattr(laws, name), 1.5, 1.25
 
     def past(tension):
-        zone = zones(case, cycles(case, a, c, 0.2, tension))
+        zone = solved(each_zone, case, cycles(case, a, c, 0.2, tension), 6)
         return np.maximum((zone[:, 4] + zone[:, 5]) / (a + c) - 1 / np.asarray(tension), -1)
 
     border = brentq(lambda t: past(t)[0], 1.02, 1.6, xtol=1e-12)
     tension = border - (border - 1) * np.array([0.02, 0.05, 0.1, 0.15])
-    zone = zones(case, cycles(case, a, c, 0.2, tension))
+    zone = solved(each_zone, case, cycles(case, a, c, 0.2, tension), 6)
     apart = (zone[:, 5] - zone[:, 1]) / past(tension) ** 2
     assert_allclose(apart, apart[0], rtol=0.1)
     assert 1 < apart[0] < 6
     assert_allclose(zone[:, 0], zone[:, 4], atol=1e-4)
-    assert np.isnan(zones(case, cycles(case, a, c, 0.2, border + 1e-3))[0, 0])
-
-
-@pytest.mark.parametrize("name", ["wedge", "hertz", "flat_rounded"])
-def test_a_body_seen_from_behind(name):
-    case = getattr(laws, name)
-    there = zones(case, cycles(case, 1.5, 1.25, 0.2, 1.02))[0]
-    back = zones(case, cycles(case, 1.25, 1.5, 0.2, -1.02))[0]
-    assert np.isfinite(there[0])
-    assert_allclose(there[:2], back[1::-1], rtol=1e-11)
-
-
-def test_it_scales_with_lengths_and_loads():
-    there = zones(laws.wedge, cycles(laws.wedge, 1.5, 1.25, 0.2, 1.05))[0, :2]
-    given = cycles(laws.wedge, 1.5, 1.25, 0.2, 1.05) * [1e-3, 1e-3, 5e-5, 5e-2]
-    small = zones(laws.wedge, given, np.array([0.05]))[0, :2]
-    assert_allclose(1e3 * small, there, rtol=1e-10)
+    assert np.isnan(solved(each_zone, case, cycles(case, a, c, 0.2, border + 1e-3), 6)[0, 0])

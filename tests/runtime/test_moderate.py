@@ -2,30 +2,11 @@
 
 import math
 
-import numpy as np
 import pytest
 
-from generated.runtime.slip.zone import each_stick_zone
 from generated.runtime.types import MODERATE
 
-from .laws import Case, hertz
-
-
-def solved(loop, case: Case, rows, count=2):
-    """What a loop finds, a row of `rows` a case."""
-    given = np.atleast_2d(np.array(rows, dtype=float))
-    own = np.tile(case.own, (len(given), 1))
-    out = np.empty((len(given), count))
-    loop(case.law, given, own, out)
-    return out
-
-
-def zone(case, *rows):
-    return solved(each_stick_zone, case, rows, 3)
-
-
-def state(case, a, c):
-    return case.functions.state(float(a), float(c), case.own)
+from .laws import hertz, zone
 
 
 def test_a_cylinder_has_closed_forms():

@@ -8,8 +8,7 @@ import pytest
 from generated.runtime.history import path as paths
 from generated.runtime.kernels import LOOP, kernel, opened
 
-from .laws import hertz, wedge
-from .test_moderate import solved
+from .laws import hertz, solved, wedge
 
 F, REACH = 0.5, 0.1
 MOST = 400

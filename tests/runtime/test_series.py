@@ -10,20 +10,14 @@ import pytest
 
 from generated.runtime.slip.series import each_slip_zones
 
-from .laws import flat_rounded, hertz, wedge
+from .laws import flat_rounded, hertz, solved, state, wedge
 
 F = 0.5
 
 
 def series(case, *rows):
     """Rows of a, c, dQ, dsigma, f, da, dc, order to zones and errors."""
-    given, out = np.array(rows, dtype=float), np.empty((len(rows), 4))
-    each_slip_zones(case.law, given, np.tile(case.own, (len(rows), 1)), out)
-    return out
-
-
-def state(case, a, c):
-    return case.functions.state(float(a), float(c), case.own)
+    return solved(each_slip_zones, case, rows, 4)
 
 
 def patch(case, load, tilt):

@@ -13,17 +13,10 @@ from scipy.integrate import quad
 from scipy.optimize import root
 
 from generated.runtime.slip import shear
-from tests.runtime.laws import flat_rounded, hertz, wedge
+from tests.runtime.laws import flat_rounded, hertz, solved, wedge
 
 NONE, MODERATE, LARGE, MIXED, SLIDING, FULL_STICK, UNSOLVED = range(7)
 f = 0.5
-
-
-def run(loop, case, rows):
-    rows = np.ascontiguousarray(np.atleast_2d(rows), dtype=float)
-    out = np.empty((len(rows), 1))
-    loop(case.law, rows, np.tile(case.own, (len(rows), 1)), out)
-    return out[:, 0]
 
 
 def asked(x, cycle, zone):
@@ -33,11 +26,11 @@ def asked(x, cycle, zone):
 
 
 def change(case, x, cycle, zone):
-    return run(shear.each_shear_change, case, asked(x, cycle, zone))
+    return solved(shear.each_shear_change, case, asked(x, cycle, zone), 1)[:, 0]
 
 
 def slip(case, x, cycle, zone):
-    return run(shear.each_slip_range, case, asked(x, cycle, zone))
+    return solved(shear.each_slip_range, case, asked(x, cycle, zone), 1)[:, 0]
 
 
 def pressures(case, cycle, x):
@@ -205,7 +198,8 @@ LARGE_CYCLE = (1.2, 1.0, 1.2, 1.0, 0.3, 0.8, f)
 def sheared(x, fall, zones):
     a, c, _, _, dQ, dsigma, _ = LARGE_CYCLE
     loads = (a, c, dQ / 2, dsigma / 2, *fall, f, *zones[0], *zones[1])
-    return run(shear.each_shear, hertz, np.column_stack([x, np.tile(loads, (len(x), 1))]))
+    rows = np.column_stack([x, np.tile(loads, (len(x), 1))])
+    return solved(shear.each_shear, hertz, rows, 1)[:, 0]
 
 
 def test_no_shear_where_a_cycle_takes_another_way():

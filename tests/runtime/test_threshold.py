@@ -8,8 +8,7 @@ import pytest
 from generated.runtime.slip.threshold import each_closing_tension, each_tension_threshold
 from generated.runtime.types import MODERATE
 
-from .laws import flat_rounded, hertz, wedge
-from .test_moderate import solved, state, zone
+from .laws import flat_rounded, hertz, solved, state, wedge, zone
 
 EACH = pytest.mark.parametrize("case", [hertz, wedge, flat_rounded], ids=["hertz", "wedge", "flat"])
 

@@ -8,8 +8,7 @@ import pytest
 from generated.runtime.slip import mixed
 from generated.runtime.types import FULL_STICK, LARGE, MIXED, MODERATE, NONE, SLIDING, UNSOLVED
 
-from .laws import hertz
-from .test_moderate import solved, zone
+from .laws import hertz, solved, zone
 
 LOAD = math.pi / 4  # of a cylinder whose contact is [-1, 1]
 
