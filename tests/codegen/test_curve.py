@@ -14,7 +14,7 @@ from sympy import exp as sympy_exp
 from derive import parameter, x
 from tests.codegen.made import module_of, text_of_body
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("no_integrals_printed")]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("short_docstrings")]
 
 b = parameter("b", "width", unit="m")
 k = parameter("k", "exponent", unit="-")
