@@ -44,12 +44,6 @@ geometry = Geometry("cylinder", g=x**2 / (2 * radius))
 '''
 
 
-@pytest.fixture(autouse=True)
-def patient(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No line about work that takes long, however slow the machine is."""
-    monkeypatch.setattr(derive.terminal, "PATIENCE", 600.0)
-
-
 @pytest.fixture
 def committed(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A copy of the package `generated` in its place."""
@@ -469,6 +463,26 @@ class TestGenerate:
         done("generate", "hertz", "--out", "link")
         assert (here / "link").is_symlink()
         assert "hertz.py" in contents(here / "there")
+
+    @pytest.mark.skipif(sys.platform == "win32", reason="devices and rights of Unix")
+    def test_nothing_is_kept_where_others_may_write(
+        self, here: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        (here / "open").mkdir()
+        (here / "open").chmod(0o777)
+        remedy = ": run `export DERIVE_CACHE=~/derive-cache` to use a directory of your own\n"
+        for folder, why in (
+            ("open", "because other users can write to it"),
+            ("/dev/full", "because it is not a directory"),
+            ("own", ""),
+        ):
+            monkeypatch.setenv("DERIVE_CACHE", folder)
+            result = run("generate", "hertz", "--out", "made")
+            assert result.exit_code == 0
+            told = f"{folder}: nothing is kept there, {why}{remedy}" if why else ""
+            assert result.stderr == told
+        assert len(contents(here / "own")) == 1
+        assert contents(here / "open") == {}
 
     @pytest.mark.parametrize(
         ("arguments", "word"),
