@@ -84,7 +84,7 @@ def test_what_the_least_curvature_demands(g: Expr, wanted: list[str]) -> None:
     assert demands(g) == wanted
 
 
-@pytest.mark.enough("(-b + x)*", "phi*", "b*log*", "E*", "b*exp(9*")
+@pytest.mark.enough("(-b + x)*", "phi*", "b*phi*", "pi*", "b*log*", "b*exp(9*")
 @pytest.mark.parametrize(
     "g",
     [
