@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+import derive.terminal
 import generated.runtime
 from derive.cache import VARIABLE
 
@@ -28,7 +29,7 @@ gc.set_threshold(100_000, 50, 50)
 _NUMBERS = count()
 
 LONGEST = ("test_the_committed_package_is_as_generated", "test_a_fresh_run_gives_what_is_committed")
-SHARED = "findings"
+SHARED = {"findings", "installed"}
 
 SLOW_EXAMPLES = {"derive.proof.prove.prove_sheet"}
 """Examples in docstrings cannot be marked where they stand."""
@@ -60,7 +61,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items.sort(
         key=lambda item: (
             not item.name.startswith(LONGEST),
-            SHARED not in getattr(item, "fixturenames", ()),
+            SHARED.isdisjoint(getattr(item, "fixturenames", ())),
             item.get_closest_marker("slow") is None,
         )
     )
@@ -97,3 +98,16 @@ def empty_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Mo
     """A cache of its own for every test, and for the processes that it starts."""
     folder = tmp_path_factory.getbasetemp() / "caches" / str(next(_NUMBERS))
     monkeypatch.setenv(VARIABLE, str(folder))
+
+
+@pytest.fixture(autouse=True)
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No line about work that takes long, however slow the machine is."""
+    monkeypatch.setattr(derive.terminal, "PATIENCE", 600.0)
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty current directory."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path

@@ -12,18 +12,17 @@ from sympy import Expr, Float, Symbol, diff
 from sympy.core.function import AppliedUndef
 
 from derive import symbols as ours
-from derive.derivation import derive_sheet
-from derive.library import load_geometry
 from derive.mathml import mathml
 from derive.paper.formula import proper
 from derive.theory.moments import full_moment, slope_moment
 from generated import hertz
+from tests.derive.bodies import of_library
 from tests.test_site import SITE, module
 
 pytestmark = pytest.mark.slow
 
 OUTLINE = module("outline")
-SHEET = derive_sheet(load_geometry("hertz"))
+SHEET = of_library("hertz")
 g, ALPHA, LOAD = SHEET.geometry.g, SHEET.flat("tilt"), SHEET.flat("load")
 
 BODY = {"E_star": 1.2, "R": 2.0}
@@ -105,7 +104,7 @@ def value(expr: Expr, name: str) -> float:
     return result.real
 
 
-SLOW = ("bounded", "stick", "stick_zone")
+SLOW = ("bounded", "stick", "stick_zone", "tilt")
 """Equations with a principal value or with slip zones, which take ten seconds and more."""
 
 EACH = [

@@ -1,61 +1,21 @@
 """What the README shows is what happens."""
 
 import doctest
-import importlib.util
 import re
-import shlex
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
-
-from derive.cli import main
 
 README = Path(__file__).parents[1] / "README.md"
 
 
-TUTORIAL = re.compile(r"```pycon\n(.*?)```", re.S)
-PLOT = re.compile(r"```python\n(import matplotlib.*?)```", re.S)
-
-
-def failures(text: str, names: dict[str, object]) -> tuple[int, int]:
-    """Examples that fail, and all that were tried."""
-    test = doctest.DocTestParser().get_doctest(text, names, "README", str(README), 0)
-    done = doctest.DocTestRunner().run(test, clear_globs=False)
-    names |= test.globs
-    return done.failed, done.attempted
-
-
 @pytest.mark.parametrize(("page", "least"), [("README.md", 6), ("docs/slip.md", 5)])
 def test_the_examples_give_what_they_show(page: str, least: int) -> None:
-    text = (README.parent / page).read_text()
-    failed, attempted = failures(TUTORIAL.sub("", text) if page == "README.md" else text, {})
-    assert (failed, attempted >= least) == (0, True)
-
-
-@pytest.mark.slow
-def test_the_tutorial_works_as_it_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its commands one after the other, its calls, and its plot where matplotlib is there.
-
-    The new package runs as plain Python, for which nothing needs to be compiled.
-    """
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.syspath_prepend(str(tmp_path))
-    text = README.read_text()
-    (block,) = re.findall(r"```sh\n(derive new.*?)```", text, re.S)
-    commands = re.findall(r"^derive (.*?)(?: +#.*)?$", block, re.M)
-    assert len(commands) >= 3
-    for command in commands:
-        done = CliRunner().invoke(main, shlex.split(command), catch_exceptions=False)
-        assert done.exit_code == 0, done.output
-    if importlib.util.find_spec("numba"):
-        monkeypatch.setattr("numba.config.DISABLE_JIT", 1)
-    calls, (plot,) = "\n".join(TUTORIAL.findall(text)), PLOT.findall(text)
-    names: dict[str, object] = {}
-    assert failures(calls, names) == (0, 7)
-    if importlib.util.find_spec("matplotlib"):
-        monkeypatch.setenv("MPLBACKEND", "Agg")
-        exec(plot, names)  # noqa: S102  (our own text)
+    """Those of the tutorial need the package that it makes: test_wheel.py."""
+    text = re.sub(r"```pycon\n(.*?)```", "", (README.parent / page).read_text(), flags=re.S)
+    test = doctest.DocTestParser().get_doctest(text, {}, page, None, 0)
+    done = doctest.DocTestRunner().run(test)
+    assert (done.failed, done.attempted >= least) == (0, True)
 
 
 def test_the_geometry_file_shown_is_that_of_the_library() -> None:

@@ -2,10 +2,12 @@
 
 import pytest
 
+from derive.codegen.function import FunctionText
 from derive.codegen.integrals import Integrals
 
 
 @pytest.fixture
-def no_integrals_printed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In docstrings they take more than half of the time, and have tests in test_integrals.py."""
+def short_docstrings(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without integrals, which have tests in test_integrals.py, and examples: most of the time."""
     monkeypatch.setattr(Integrals, "lines", lambda *_: iter(()))
+    monkeypatch.setattr(FunctionText, "_doctest", ())

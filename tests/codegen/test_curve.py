@@ -14,7 +14,7 @@ from sympy import exp as sympy_exp
 from derive import parameter, x
 from tests.codegen.made import module_of, text_of_body
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("no_integrals_printed")]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("short_docstrings")]
 
 b = parameter("b", "width", unit="m")
 k = parameter("k", "exponent", unit="-")
@@ -123,7 +123,7 @@ def test_a_corner_where_an_exponential_is_e_becomes_code() -> None:
             assert found[1] == pytest.approx(0.125 * np.e / 0.5, rel=1e-15)
 
 
-@pytest.mark.enough("exponential", "logarithm")
+@pytest.mark.enough("exponential")
 @pytest.mark.parametrize(
     ("g", "rate"),
     [

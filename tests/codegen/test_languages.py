@@ -12,9 +12,10 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_allclose
 
-from derive import Geometry, derive_sheet, load_geometry, parameter, x
+from derive import Geometry, derive_sheet, parameter, x
 from derive.codegen.languages import LANGUAGES, code_of
 from derive.errors import NoSuchName
+from tests.derive.bodies import of_library
 
 BODIES = {  # parameters in the order of their names
     **{"hertz": {"R": 0.3}, "wedge": {"phi": 0.02}},
@@ -60,7 +61,7 @@ def demand_values(name: str, values_of: Callable[[list[Call]], list[float]]) -> 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")
 @pytest.mark.parametrize("name", BODIES)
 def test_c(name: str, tmp_path: Path) -> None:
-    (tmp_path / "body.c").write_text(code_of(derive_sheet(load_geometry(name)), "c"))
+    (tmp_path / "body.c").write_text(code_of(of_library(name), "c"))
     flags = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC")
     subprocess.run(["cc", *flags, "body.c", "-o", "body.so", "-lm"], cwd=tmp_path, check=True)
     library = ctypes.CDLL(str(tmp_path / "body.so"))
@@ -76,7 +77,7 @@ def test_c(name: str, tmp_path: Path) -> None:
 @pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript engine")
 @pytest.mark.parametrize("name", ["wedge", "rounded_wedge"])
 def test_javascript(name: str, tmp_path: Path) -> None:
-    (tmp_path / "body.mjs").write_text(code_of(derive_sheet(load_geometry(name)), "javascript"))
+    (tmp_path / "body.mjs").write_text(code_of(of_library(name), "javascript"))
 
     def values_of(asked: list[Call]) -> list[float]:
         listed = (f"body.{of}({', '.join(map(json.dumps, given))})" for of, given in asked)
@@ -111,18 +112,18 @@ HERTZ_LOAD = {
 @pytest.mark.parametrize("language", HERTZ_LOAD)
 def test_the_load_of_a_cylinder(language: str) -> None:
     """P = pi E* (a + c)**2/(16 R), as each language writes it."""
-    text = code_of(derive_sheet(load_geometry("hertz")), language)
+    text = code_of(of_library("hertz"), language)
     assert {*HERTZ_LOAD[language]} <= {line.strip() for line in text.split("\n")}
 
 
 def test_julia_has_atan_of_two_arguments() -> None:
-    text = code_of(derive_sheet(load_geometry("wedge")), "julia")
+    text = code_of(of_library("wedge"), "julia")
     assert "atan(" in text and "atan2" not in text
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_integrals_are_named_and_left_out(language: str) -> None:
-    text = code_of(derive_sheet(load_geometry("catenary")), language)
+    text = code_of(of_library("catenary"), language)
     assert "tilt, load, moment, pressure" in text
     assert "K_T_left" in text
 

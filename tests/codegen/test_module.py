@@ -265,7 +265,7 @@ def test_an_example_lies_between_a_kink_and_the_end_of_the_body(flat: Expr) -> N
 L, width = (parameter(name, "a length", unit="m") for name in ("L", "b"))
 
 
-@pytest.mark.usefixtures("no_integrals_printed")
+@pytest.mark.usefixtures("short_docstrings")
 @pytest.mark.enough("b*exp*")
 @pytest.mark.parametrize("g", [10**24 * x**4 / L**3, width * exp(exp(x / width))], ids=str)
 def test_a_steep_body_is_tried_where_float64_holds_it(g: Expr) -> None:
@@ -281,7 +281,7 @@ def test_a_body_that_float64_does_not_hold_is_told_so() -> None:
         demand_right(of, module_text(of, "wall.py"), STUCK)
 
 
-@pytest.mark.usefixtures("no_integrals_printed")
+@pytest.mark.usefixtures("short_docstrings")
 def test_a_body_convex_for_some_parameters_gives_nothing_for_the_others() -> None:
     """g'' = 12 x^2/L^3 - 6 x/(10 L^2) + 2/R is nowhere negative where 3 R <= 800 L."""
     R = parameter("R", "a radius", unit="m")
@@ -323,7 +323,7 @@ NAMED = [
 """Profiles whose parameters are called as the local variables of the code."""
 
 
-@pytest.mark.usefixtures("no_integrals_printed")
+@pytest.mark.usefixtures("short_docstrings")
 @pytest.mark.enough("g0")
 @pytest.mark.parametrize("g", NAMED)
 def test_local_variables_give_way_to_parameters(g: Expr) -> None:

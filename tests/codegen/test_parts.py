@@ -17,7 +17,6 @@ from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
 from derive.derivation import derive_sheet
 from derive.errors import NotProven
-from derive.library import load_geometry
 from derive.notation import text_of
 from derive.proof.points import Point, holds, numeric
 from derive.runtime import elementary, segments
@@ -25,6 +24,7 @@ from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c, x
 from derive.theory.edges import Edge, pressure_series
 from derive.theory.segments import Parts
+from tests.derive.bodies import of_library as sheet_of
 
 BODIES = ("flat_rounded", "rounded_wedge", "two_radii", "wedge_parabola", "flat_sloped")
 R = parameter("R", "length", unit="m")
@@ -42,11 +42,6 @@ FIELDS: tuple[tuple[str, ...], ...] = (
 def named(formulas: tuple[str, ...]) -> dict[str, str]:
     """The fields of a function with their formulas."""
     return dict(zip(("left", "right") if formulas[1:] else ("",), formulas, strict=True))
-
-
-@cache
-def sheet_of(name: str) -> FormulaSheet:
-    return derive_sheet(load_geometry(name))
 
 
 @cache
@@ -99,6 +94,7 @@ def contacts(sheet: FormulaSheet, count: int = 12) -> list[Point]:
     return found
 
 
+@pytest.mark.enough("wedge_parabola", "rounded_wedge", "flat_sloped")
 @pytest.mark.parametrize("name", BODIES)
 def test_digits_are_kept_beside_kinks(name: str) -> None:
     sheet = sheet_of(name)
@@ -140,6 +136,7 @@ def test_a_sum_that_is_not_the_sheet_s_formula_is_refused(monkeypatch: pytest.Mo
         parts_program(sheet_of("two_radii"), {"": "load"})
 
 
+@pytest.mark.enough("phi*", "(-b*")
 @pytest.mark.parametrize(
     "g",
     [

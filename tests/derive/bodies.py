@@ -13,6 +13,7 @@ from sympy import Abs, Expr, Max, Piecewise, lambdify
 
 from derive import Geometry, parameter, x
 from derive.derivation import derive_sheet
+from derive.library import load_geometry
 from derive.proof.prove import prove_sheet
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
@@ -144,6 +145,12 @@ EACH = [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for 
 def geometry(name: str) -> Geometry:
     """One body, read once."""
     return Geometry(name, g=BODIES[name].g)
+
+
+@cache
+def of_library(name: str) -> FormulaSheet:
+    """The sheet of a body of the library, derived once."""
+    return derive_sheet(load_geometry(name))
 
 
 @cache

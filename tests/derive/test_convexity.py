@@ -84,6 +84,7 @@ def test_what_the_least_curvature_demands(g: Expr, wanted: list[str]) -> None:
     assert demands(g) == wanted
 
 
+@pytest.mark.enough("(-b + x)*", "phi*", "b*phi*", "pi*", "b*log*", "b*exp(9*")
 @pytest.mark.parametrize(
     "g",
     [
@@ -154,7 +155,7 @@ def _least(curvature: Expr, lower: Expr, upper: Expr) -> Expr:
     return min(poly.eval(p) for p in (*places, *(e for e in (lower, upper) if e.is_finite)))
 
 
-@pytest.mark.enough("(R*", "x*")
+@pytest.mark.enough("(R*", "x*/B?*2")
 @pytest.mark.parametrize(
     "g",
     [

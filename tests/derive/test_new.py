@@ -303,6 +303,7 @@ REFUSED = [
     (("hertz", "x**2/R"), "in the library"),
     (("sympy", "x**2/R"), "hide"),
     (("body",), "Missing argument"),
+    (("many", "+".join(f"x**2/R{i}" for i in range(150))), "has 150 parameters, and at most 40"),
 ]
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from derive.paper.userfile import BUILT_IN, read_claims
 from generated import wedge
 from notebooks import common
 
@@ -27,10 +28,14 @@ def test_loads_swing_in_phase_between_both_states() -> None:
     assert np.all(wedge.march(*of.loads, **GIVEN).regime != wedge.Regime.NONE)
 
 
-PAPER = pytest.mark.slow  # all claims of the paper are made for the one that is asked for
+@pytest.fixture
+def wedge_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the claims of the paper, those of the section that is asked for."""
+    monkeypatch.setattr(common, "paper", lambda: read_claims(BUILT_IN / "4_wedge.toml"))
 
 
-@PAPER
+@pytest.mark.slow
+@pytest.mark.usefixtures("wedge_alone")
 def test_the_printed_coefficient_of_a_tilted_contact() -> None:
     """Eq. (32): dQ/(pi sqrt(2 a)) + (dsigma/4) sqrt(a/2), and with c and - at the right; eq. (33)
     and (34): K_N = (2/pi) sqrt(c/(a (a + c))), and a/c times it, for E* = phi = 1."""
@@ -45,7 +50,8 @@ def test_the_printed_coefficient_of_a_tilted_contact() -> None:
     assert_allclose(ends.n, c - abs(K_right) / (0.5 * N_left * a / c) + 0.005)
 
 
-@PAPER
+@pytest.mark.slow
+@pytest.mark.usefixtures("wedge_alone")
 def test_the_printed_march_ends_as_the_printed_series_does() -> None:
     of = common.cycle((1.0, 1.0), (0.1, 0.15), DQ, PULL, count=9)
     marched = common.printed_march(wedge, of, **GIVEN)

@@ -11,15 +11,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
 from sympy import Abs
 
 import derive.codegen.trial
 import derive.parallel
 import derive.proof.prove
-from derive import Geometry, derive_sheet, load_geometry, parameter, x
+from derive import Geometry, derive_sheet, parameter, x
 from derive.body import Body
-from derive.cli import main
 from derive.errors import BadPage
 from derive.handbook.curves import OWN, drawn_at, pictures
 from derive.handbook.page import entry, index, page, proven
@@ -30,7 +28,8 @@ from derive.pipeline import GENERATED
 from derive.proof.verdict import Verdict
 from derive.sheet import FormulaSheet
 from derive.shelf import put_page, put_pages
-from tests.derive.bodies import assumed
+from tests.commands import done, refused
+from tests.derive.bodies import assumed, of_library
 
 pytestmark = pytest.mark.slow
 
@@ -52,7 +51,7 @@ def body_of(sheet: FormulaSheet, text: str) -> Body:
 
 @cache
 def made(name: str) -> tuple[FormulaSheet, Body]:
-    sheet = derive_sheet(load_geometry(name))
+    sheet = of_library(name)
     return sheet, body_of(sheet, (GENERATED / f"{name}.py").read_text())
 
 
@@ -251,9 +250,7 @@ def test_what_killed_runs_have_left_is_removed(pages: Path, tmp_path: Path) -> N
     ],
 )
 def test_options_that_do_not_go_together(arguments: list[str], told: str) -> None:
-    done = CliRunner().invoke(main, ["show", *arguments])
-    assert done.exit_code == 2
-    assert told in done.output.partition("Error: ")[2]
+    assert told in refused("show", *arguments).partition("Error: ")[2]
 
 
 def test_closed_forms_that_are_found_only_now_stay_away() -> None:
@@ -281,8 +278,7 @@ def test_the_command_writes_a_page_and_the_same_of_what_it_kept(
     monkeypatch.setattr(derive.parallel, "cores", lambda: 1)
     pages = []
     for path in (tmp_path / "first.html", tmp_path / "second.html"):
-        done = CliRunner().invoke(main, ["show", name, "--html", "--out", str(path)])
-        assert (done.exit_code, done.output.strip()) == (0, f"Wrote {path}")
+        assert done("show", name, "--html", "--out", str(path)).strip() == f"Wrote {path}"
         pages.append(path.read_text())
     assert pages[0] == pages[1]
     sheet, _ = made(name)

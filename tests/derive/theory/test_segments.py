@@ -9,18 +9,14 @@ from sympy import Piecewise, Rational
 
 from derive.derivation import derive_sheet
 from derive.geometry import Geometry, parameter
-from derive.library import load_geometry
 from derive.notation import text_of
 from derive.proof.points import contacts, numeric, numeric_by_steps
 from derive.proof.prove import prove_sheet
 from derive.sheet import FormulaSheet
 from derive.symbols import x
 from derive.theory.edges import Edge, pressure_series
-from derive.theory.segments import (
-    Parts,
-    has_parts,
-    written_out,
-)
+from derive.theory.segments import Parts, has_parts, written_out
+from tests.derive.bodies import of_library
 
 BODIES = ("flat_rounded", "rounded_wedge", "two_radii", "wedge_parabola", "flat_sloped")
 
@@ -42,7 +38,7 @@ many_parts = Geometry(
 
 @cache
 def sheet_of(name: str) -> FormulaSheet:
-    return derive_sheet(many_parts if name == "many_parts" else load_geometry(name))
+    return derive_sheet(many_parts) if name == "many_parts" else of_library(name)
 
 
 @pytest.mark.enough("many_parts", "flat_rounded")
