@@ -104,7 +104,7 @@ def value(expr: Expr, name: str) -> float:
     return result.real
 
 
-SLOW = ("bounded", "stick", "stick_zone", "tilt")
+SLOW = ("bounded", "stick", "stick_zone")
 """Equations with a principal value or with slip zones, which take ten seconds and more."""
 
 EACH = [

@@ -20,8 +20,6 @@ from .arrays import Numbers, evaluated, is_foreign, positive_or_nan, real, shape
 from .chunks import any_lazy, is_lazy, over_chunks
 from .words import EXAMPLES, Parameter, documented
 
-_SHAPES = "Arguments broadcast; results are float64 of the broadcast shape."
-
 CASES = 65_536
 """Number of cases that are solved at once."""
 
@@ -105,8 +103,6 @@ class Body:
         text = documented(*self.parameters)(call).__doc__ or ""
         if self.demands:
             text = re.sub(r"(parameters\s+are positive)", rf"\1, {self.demands}", text)
-        if "\nNotes\n" not in text:
-            text += f"\n\nNotes\n-----\n{_SHAPES}"
         example = EXAMPLES[function.__name__].format_map(self.example.words)
         text += f"\nDerived from {self.origin}.\n\nExamples\n--------\n{example}"
         call.__doc__ = text

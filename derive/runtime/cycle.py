@@ -314,14 +314,6 @@ def slip_zones(
     Edges
         left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
         where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers, or the order is
-        not a whole number.
-    ValueError
-        If the shapes of the arguments do not broadcast, or the order is not one of 1, 2 and 3.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     _demand_order(order, 1, 3)
@@ -350,14 +342,6 @@ def slip_error(
     Edges
         left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
         where dQ >= f (P_1 + P_2), which means sliding.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers, or the order is
-        not a whole number.
-    ValueError
-        If the shapes of the arguments do not broadcast, or the order is not one of 1 and 2.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     _demand_order(order, 1, 2)

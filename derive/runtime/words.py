@@ -1,8 +1,10 @@
 """Words for docstrings: the sections that all functions share, and examples of bound functions."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from inspect import Parameter as Argument
 from inspect import cleandoc, signature
+from textwrap import fill
 from typing import Any, NamedTuple, TypeVar
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -10,19 +12,15 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 COMPILING = "compiling the solver of this call, once per installation: up to a minute ..."
 """What a user reads while kernels are compiled."""
 
-RAISES = """\
-Raises
-------
-TypeError
-    If {}.
-ValueError
-    If the shapes of the arguments do not broadcast."""
-"""The errors of a function whose docstring lists no others."""
-
 NO_NUMBER = "an argument is not a real number or an array of real numbers"
 NO_CONTACT = (
     "a contact is not a Contact, or another argument is not a real number or an array of them"
 )
+NO_SHAPE = "the shapes of the arguments do not broadcast"
+"""The errors of a function whose docstring lists no others."""
+
+SHAPES = "Arguments broadcast; results are float64 of the broadcast shape."
+"""The notes of a function whose docstring has none."""
 
 
 class Parameter(NamedTuple):
@@ -33,31 +31,58 @@ class Parameter(NamedTuple):
     unit: str
 
 
-def documented(*own: Parameter) -> Callable[[Function], Function]:
+def documented(*own: Parameter, **others: str) -> Callable[[Function], Function]:
     """Complete the docstring of a function of a body that has these parameters.
 
-    The arguments come before the results.  Unless the docstring lists errors itself, RAISES comes
-    before its notes and examples.
+    The section for the arguments comes before that for the results; those for errors and notes
+    follow it, unless the docstring has them already.
+
+    others: meanings of arguments, in place of those in MEANINGS.
     """
+    meanings = MEANINGS | others | {p.name: f"{p.meaning} [{p.unit}]" for p in own}
 
     def complete(function: Function) -> Function:
-        meanings = MEANINGS | {p.name: f"{p.meaning} [{p.unit}]" for p in own}
-        meanings |= OTHERWISE.get(function.__name__, {})
-        lines = ["Parameters", "----------"]
-        for a in signature(function).parameters.values():
-            optional = "" if a.default is a.empty else ", optional"
-            lines.append(f"{a.name} : {TYPES.get(a.name, 'array_like')}{optional}")
-            lines.append(f"    {sentence(' '.join(meanings[a.name].split()))}")
-        words, results, text = cleandoc(function.__doc__ or "").partition("Returns\n")
-        if "\nRaises\n" not in text:
-            takes_contacts = any(line.endswith(" : Contact") for line in lines)
-            raises = RAISES.format(NO_CONTACT if takes_contacts else NO_NUMBER)
-            text, *behind = re.split(r"(\n\n(?:Notes|Examples)\n)", text, maxsplit=1)
-            text = "".join([text, "\n\n", raises, *behind])
-        function.__doc__ = "".join([words, "\n".join(lines), "\n\n", results, text])
+        title, *sections = re.split(r"\n\n(?=\w+\n---)", cleandoc(function.__doc__ or ""))
+        found = {section.split("\n", 1)[0]: section for section in sections}
+        arguments = signature(function).parameters.values()
+        entries = _entries(function.__name__, arguments, meanings)
+        found["Parameters"] = _section("Parameters", *entries)
+        found.setdefault("Raises", _section("Raises", *_errors({a.name for a in arguments})))
+        found.setdefault("Notes", _section("Notes", SHAPES))
+        order = ("Parameters", "Returns", "Raises", "Notes", "Examples")
+        function.__doc__ = "\n\n".join([title, *(found[n] for n in order if n in found)])
         return function
 
     return complete
+
+
+def _section(title: str, *lines: str) -> str:
+    return "\n".join([title, "-" * len(title), *lines])
+
+
+def _entries(
+    function: str, arguments: Iterable[Argument], meanings: Mapping[str, str]
+) -> Iterator[str]:
+    """The lines about the arguments of a function."""
+    meanings = {**meanings, **OTHERWISE.get(function, {})}
+    for a in arguments:
+        optional = "" if a.default is a.empty else ", optional"
+        yield f"{a.name} : {TYPES.get(a.name, 'array_like')}{optional}"
+        yield _indented(sentence(" ".join(meanings[a.name].split())))
+
+
+def _errors(names: set[str]) -> Iterator[str]:
+    """The lines about the errors of a function with arguments of these names."""
+    wrong = NO_CONTACT if names & {"contact", "first"} else NO_NUMBER
+    ordered = "order" in names
+    yield "TypeError"
+    yield _indented(f"If {wrong}{', or the order is not a whole number' * ordered}.")
+    yield "ValueError"
+    yield _indented(f"If {NO_SHAPE}{', or the order is not one that is allowed' * ordered}.")
+
+
+def _indented(text: str) -> str:
+    return fill(text, 100, initial_indent="    ", subsequent_indent="    ")
 
 
 def sentence(words: str) -> str:
@@ -100,7 +125,7 @@ MEANINGS = {
 
 TYPES = {
     **dict.fromkeys(("contact", "first", "second"), "Contact"),
-    **{"mixed": "bool", "order": "int", "tol": "float"},
+    **{"back": "bool", "mixed": "bool", "order": "int", "tol": "float"},
 }
 """Types of the arguments that are not arrays of numbers."""
 
@@ -114,6 +139,7 @@ OTHERWISE = {
     "history": {"x": "positions at which to return shear and slip; none unless given [m]"},
     "steady_cycle": {"x": "positions at which to return shear and slip; none unless given [m]"},
     "march": {"order": "order of the series; 0 for the exact conditions"},
+    "slip_error": {"order": "order of the series: 1 or 2"},
 }
 """Meanings that apply to a single function only."""
 

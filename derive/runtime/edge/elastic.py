@@ -7,6 +7,7 @@ import numpy as np
 
 from ..arrays import evaluated, real
 from ..types import Array
+from ..words import documented
 
 SEPARATE = 1e-9
 """Bodies count as similar up to this value of Dundurs' beta."""
@@ -75,32 +76,22 @@ def E_star(E: Array, nu: Array, E_2: Array = None, nu_2: Array = None) -> Array:
     )
 
 
+@documented(
+    E="Young's modulus of one body [Pa]",
+    nu="its Poisson's ratio [-]",
+    E_2="Young's modulus of the other body [Pa]",
+    nu_2="its Poisson's ratio [-]",
+)
 def dundurs(E: Array, nu: Array, E_2: Array, nu_2: Array) -> Array:
     """Dundurs' second parameter beta in plane strain; 0 if pressure and shear decouple.
 
         beta = (E* /2) ((1 - 2 nu)(1 + nu)/E - (1 - 2 nu_2)(1 + nu_2)/E_2)
-
-    Parameters
-    ----------
-    E, nu, E_2, nu_2 : array_like
-        Young's modulus [Pa] and Poisson's ratio [-] of each body.
 
     Returns
     -------
     ndarray
         Beta [-], between -1/2 and 1/2; its sign changes if the bodies are exchanged. NaN where
         E_star is NaN.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
-    Notes
-    -----
-    Arguments broadcast; results are float64 of the broadcast shape.
 
     Examples
     --------

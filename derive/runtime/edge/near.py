@@ -21,6 +21,7 @@ import numpy as np
 
 from ..arrays import evaluated
 from ..types import Array
+from ..words import documented
 from .zone import CASES, Coefficients, _demand_order, _numbers, length, shifted
 
 BEYOND = ((1.0, 3 / 2, 15 / 8), (1.0, 5 / 2), (1.0,))
@@ -35,6 +36,26 @@ WORK = tuple(
     for k in range(3)
 )
 """B(k + 3/2, m + 5/2) = int_0^1 s**(k + 1/2) (1 - s)**(m + 3/2) ds."""
+
+
+EDGE = {
+    "s": "distance inward from the position of the edge at the highest shear load [m]",
+    "K_N": "coefficient of sqrt(s) in the pressure [Pa/sqrt(m)]",
+    "K_T": "coefficient of 1/sqrt(s) in the full-stick change in shear, signed [Pa sqrt(m)]",
+    "L_N": "coefficient of s**(3/2) in the pressure [Pa/m**(3/2)]",
+    "L_T": "coefficient of sqrt(s) in the change in shear [Pa/sqrt(m)]",
+    "N_N": "coefficient of s**(5/2) in the pressure [Pa/m**(5/2)]",
+    "N_T": "coefficient of s**(3/2) in the change in shear [Pa/m**(3/2)]",
+    "da": "how much further out the edge is than at the other end of the half-cycle [m]",
+    "h": "width of the contact, if it is known [m]",
+    "order": "1, 2 or 3; by default the highest order that the coefficients allow",
+    "E_star": "composite modulus, see E_star() [Pa]",
+    "share": "completed part of the half-cycle, from 0 to 1; all loads change linearly",
+    "back": "whether to take the half-cycle that lowers the shear load, not the one that raises it",
+    "mean": "mean of K_T over the cycle [Pa sqrt(m)]; before the first cycle, Q and sigma rose "
+    "from zero to their highest values",
+}
+"""Meanings of the arguments."""
 
 
 class Tractions(NamedTuple):
@@ -156,6 +177,7 @@ def _reversed(edge: _Edge) -> _Edge:
     return edge._replace(now=shifted(edge.now, lag), shear=back, da=-lag)
 
 
+@documented(**EDGE)
 def tractions(
     s: Array,
     K_N: Array,
@@ -179,37 +201,11 @@ def tractions(
             value far from the edge
         both are multiplied by the direction of slip, +1 or -1
 
-    Parameters
-    ----------
-    s : array_like
-        Distance inward from the position of the edge at the highest shear load [m].
-    K_N, K_T, f, L_N, L_T, N_N, N_T, da, order : array_like
-        As in slip_zone.
-    share : array_like, optional
-        Completed part of the half-cycle, from 0 to 1; all loads change linearly.
-    back : bool, optional
-        Whether to take the half-cycle that lowers the shear load instead of the one that raises it.
-    mean : array_like, optional
-        Mean of K_T over the cycle [Pa sqrt(m)]; before the first cycle, Q and sigma rose from
-        zero to their highest values.
-
     Returns
     -------
     Tractions
         p [Pa], q [Pa], dq [Pa].  NaN where slip_zone gives NaN; q is also NaN where the edge moves
         and the surfaces do not slip at s. Accurate where s is small compared with `reach`.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers, or the order is
-        not a whole number.
-    ValueError
-        If the shapes of the arguments do not broadcast, or the coefficients do not allow the order.
-
-    Notes
-    -----
-    Arguments broadcast; results are float64 of the broadcast shape.
 
     Examples
     --------
@@ -246,6 +242,7 @@ def tractions(
     return result
 
 
+@documented(**EDGE)
 def slip_range(
     s: Array,
     K_N: Array,
@@ -264,32 +261,11 @@ def slip_range(
 
         (2/E*) int_0^(d - s) sqrt(u) R(-u) du; order 1: (8 f K_N/(3 E*)) (d - s)**(3/2)
 
-    Parameters
-    ----------
-    s : array_like
-        Distance inward from the position of the edge at the highest shear load [m].
-    E_star : array_like
-        Composite modulus, see E_star() [Pa].
-    K_N, K_T, f, L_N, L_T, N_N, N_T, da, order : array_like
-        As in slip_zone.
-
     Returns
     -------
     ndarray
         The slip range [m]; 0 where the surfaces stick. NaN where slip_zone gives NaN, and at
         points that leave the contact during the cycle.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers, or the order is
-        not a whole number.
-    ValueError
-        If the shapes of the arguments do not broadcast, or the coefficients do not allow the order.
-
-    Notes
-    -----
-    Arguments broadcast; results are float64 of the broadcast shape.
 
     Examples
     --------
@@ -310,6 +286,7 @@ def slip_range(
     return evaluated(evaluate, given, None, CASES)
 
 
+@documented(**EDGE)
 def work(
     K_N: Array,
     K_T: Array,
@@ -326,29 +303,10 @@ def work(
 
         2 int_0^d f p times the slip range ds; order 1: pi f**2 K_N**2 d**3/(3 E*)
 
-    Parameters
-    ----------
-    E_star : array_like
-        Composite modulus, see E_star() [Pa].
-    K_N, K_T, f, L_N, L_T, N_N, N_T, order : array_like
-        As in slip_zone.
-
     Returns
     -------
     ndarray
         The work [J/m]. NaN where slip_zone gives NaN.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers, or the order is
-        not a whole number.
-    ValueError
-        If the shapes of the arguments do not broadcast, or the coefficients do not allow the order.
-
-    Notes
-    -----
-    Arguments broadcast; results are float64 of the broadcast shape.
 
     Examples
     --------
@@ -372,6 +330,7 @@ def work(
     return evaluated(evaluate, given, None, CASES)
 
 
+@documented(**EDGE)
 def peak(
     K_N: Array,
     K_T: Array,
@@ -390,31 +349,11 @@ def peak(
 
     Closer to the edge, q = f p, and q/p is largest.
 
-    Parameters
-    ----------
-    K_N, K_T, f, L_N, L_T, N_N, N_T, order : array_like
-        As in slip_zone.
-    mean : array_like, optional
-        Mean of K_T over the cycle [Pa sqrt(m)]; before the first cycle, Q and sigma rose from
-        zero to their highest values.
-
     Returns
     -------
     Peak
         s [m], q [Pa], positive in the direction of slip there. NaN where slip_zone
         gives NaN.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers, or the order is
-        not a whole number.
-    ValueError
-        If the shapes of the arguments do not broadcast, or the coefficients do not allow the order.
-
-    Notes
-    -----
-    Arguments broadcast; results are float64 of the broadcast shape.
 
     Examples
     --------
@@ -435,6 +374,7 @@ def peak(
     return result
 
 
+@documented(**EDGE)
 def reach(
     K_N: Array, K_T: Array, *, L_N: Array = None, L_T: Array = None, h: Array = None
 ) -> Array:
@@ -442,27 +382,11 @@ def reach(
 
         the least of |K_N/L_N|, |K_T/L_T| and h; those not given are left out
 
-    Parameters
-    ----------
-    K_N, K_T, L_N, L_T, h : array_like
-        As in slip_zone.
-
     Returns
     -------
     ndarray
         The distance [m]; the relative error of a first-order slip zone d is about d divided by it.
         NaN if none of L_N, L_T and h is given.
-
-    Raises
-    ------
-    TypeError
-        If an argument is not a real number or an array of real numbers.
-    ValueError
-        If the shapes of the arguments do not broadcast.
-
-    Notes
-    -----
-    Arguments broadcast; results are float64 of the broadcast shape.
 
     Examples
     --------
