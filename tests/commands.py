@@ -13,8 +13,8 @@ ROOT = Path(__file__).parents[1]
 MODULE = (sys.executable, "-m", "derive")
 
 
-def run(*arguments: str) -> Result:
-    return CliRunner().invoke(main, arguments)
+def run(*arguments: object) -> Result:
+    return CliRunner().invoke(main, [*map(str, arguments)])
 
 
 def done(*arguments: str) -> str:

@@ -4,15 +4,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
 from numpy.testing import assert_allclose
 
-from derive.cli import main
 from derive.edge.find import find
 from derive.edge.table import read
 from derive.errors import BadTable
 from generated import flat_rounded
 from generated.runtime.types import Contact
+from tests.commands import run
 from tests.edge import example
 
 X = np.linspace(-1.13, 1.11, 50)
@@ -160,19 +159,15 @@ def test_a_bad_table_gets_one_message(path: Path, number: int) -> None:
     assert message.startswith("t.csv: ") and ";" in message and "\n" not in message
 
 
-def run(*args: object) -> Result:
-    return CliRunner().invoke(main, ["edge", *map(str, args)])
-
-
 def test_a_bad_table_leaves_with_two_and_no_traceback(path: Path, tmp_path: Path) -> None:
     path.write_text("x,p\n" + rows(X, P))
-    result = run(path, "--f", 0.5)
+    result = run("edge", path, "--f", 0.5)
     assert result.exit_code == 2
     assert result.output.startswith("Error: t.csv: the unit of 'x' is missing")
-    assert run(tmp_path / "none.csv", "--f", 0.5).exit_code == 2
-    assert run(tmp_path, "--f", 0.5).exit_code == 2
-    assert run(path, "--f", -1).exit_code == 2
-    assert run(path, "--f", 0.5, "--unit", "z=mm").exit_code == 2
+    assert run("edge", tmp_path / "none.csv", "--f", 0.5).exit_code == 2
+    assert run("edge", tmp_path, "--f", 0.5).exit_code == 2
+    assert run("edge", path, "--f", -1).exit_code == 2
+    assert run("edge", path, "--f", 0.5, "--unit", "z=mm").exit_code == 2
 
 
 def test_the_command_by_hand(path: Path, tmp_path: Path) -> None:
@@ -181,7 +176,7 @@ def test_the_command_by_hand(path: Path, tmp_path: Path) -> None:
     1 - sqrt(1 - 2*0.15): f (p_1 + p_2) has 0.3 of its square to give."""
     path, page, table = (tmp_path / name for name in ("t.csv", "t.html", "out.csv"))
     path.write_text("x [mm],p [MPa],dq [MPa]\n" + rows(X, P, Q))
-    result = run(path, "--f", 0.5, "--html", page, "--csv", table)
+    result = run("edge", path, "--f", 0.5, "--html", page, "--csv", table)
     assert result.exit_code == 0, result.output
     found = find(read(path), "t.csv", 0.5)
     for edge in found.edges:
@@ -197,7 +192,7 @@ def test_the_command_by_hand(path: Path, tmp_path: Path) -> None:
 
 def test_loads_in_place_of_shear(path: Path) -> None:
     path.write_text(HEAD + rows(X, P))
-    without = run(path, "--f", 0.5)
+    without = run("edge", path, "--f", 0.5)
     assert without.exit_code == 0 and "the slip zones cannot be computed" in without.output
     found = find(read(path), "t.csv", 0.5, dQ=30e6 * np.pi * 1e-3)
     for zone in found.zones:
@@ -309,7 +304,7 @@ def test_a_table_that_was_given_is_not_written_over(path: Path, tmp_path: Path) 
     table = tmp_path / "given.csv"
     table.write_text(HEAD + rows(X, P))
     for target, why in ((path, "exists and was not made by"), (tmp_path, "is a directory")):
-        result = run(table, "--f", 0.5, "--csv", target)
+        result = run("edge", table, "--f", 0.5, "--csv", target)
         assert result.exit_code == 2
         assert why in result.output and "choose another path with --csv" in result.output
     assert path.read_text() == "mine\n"
@@ -317,7 +312,7 @@ def test_a_table_that_was_given_is_not_written_over(path: Path, tmp_path: Path) 
 
 def test_a_unit_that_the_table_gives_otherwise_is_refused(path: Path) -> None:
     path.write_text(HEAD + rows(X, P))
-    result = run(path, "--f", 0.5, "--unit", "p=Pa")
+    result = run("edge", path, "--f", 0.5, "--unit", "p=Pa")
     assert result.exit_code == 2
     assert "the table gives p in MPa, but --unit says Pa" in result.output
-    assert run(path, "--f", 0.5, "--unit", "p=MPa").exit_code == 0
+    assert run("edge", path, "--f", 0.5, "--unit", "p=MPa").exit_code == 0
