@@ -1,9 +1,10 @@
 """Property tests draw the same examples on every machine; no test sees the user's own cache."""
 
 import gc
-import importlib
 import os
 import pkgutil
+import subprocess
+import sys
 from fnmatch import fnmatchcase
 from itertools import count
 from pathlib import Path
@@ -39,10 +40,17 @@ os.environ.pop("COLUMNS", None)  # tables in a pipe are as wide as they need to 
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Compile the kernels of a fresh clone once, before several processes each would."""
+    """Compile the kernels of a fresh clone once, before several processes each would.
+
+    Two processes share the work: one begins with the first module, the other with the last.
+    """
     if config.getoption("numprocesses", None):
-        for module in pkgutil.walk_packages(generated.runtime.__path__, "generated.runtime."):
-            importlib.import_module(module.name)
+        folder = generated.runtime.__path__
+        names = [m.name for m in pkgutil.walk_packages(folder, "generated.runtime.")]
+        orders = (f"import {', '.join(order)}" for order in (names, names[::-1]))
+        running = [subprocess.Popen([sys.executable, "-c", order]) for order in orders]
+        if any([process.wait() for process in running]):
+            raise ImportError("generated.runtime cannot be imported: see above")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -162,8 +162,8 @@ def _called(
 def imported(name: str, text: str, stuck: str) -> Iterator[ModuleType]:
     """The module, imported in a package of its own that is removed again afterwards.
 
-    Its runtime is derive.runtime, so that nothing is compiled again; generated packages receive a
-    copy of it.
+    Its runtime is derive.runtime, whose kernels run as plain Python: to compile them takes longer
+    than to run them a few times.
     """
     with tempfile.TemporaryDirectory() as folder:
         package = f"_trial_of_{name}"

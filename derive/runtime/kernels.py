@@ -2,7 +2,7 @@
 
 A kernel solves one case, in plain Python with `math`.  This module compiles it and keeps the result
 on disk next to its source.  Where numba is missing, or NUMBA_DISABLE_JIT is set, the source runs as
-Python.
+Python.  So does the copy in `derive`, because its commands call each function only a few times.
 
 A body reaches the kernels as a `Law`, a few functions of fixed signature, so that the kernels are
 compiled once for all bodies.  Python passes a law as the addresses of its functions, and the kernel
@@ -22,19 +22,18 @@ from .elementary import where
 from .shared import SHARED
 from .words import COMPILING
 
-try:
-    import numba
-except ImportError:
-    COMPILED = False
-else:
-    COMPILED = not numba.config.DISABLE_JIT
+COMPILED = __name__ != "derive.runtime.kernels"
+if COMPILED:
+    try:
+        import numba
+    except ImportError:
+        COMPILED = False
+    else:
+        COMPILED = not numba.config.DISABLE_JIT
 
 PATIENCE = 0.7
 """Seconds after which a line says that kernels are being compiled; loading them from disk takes
 about a hundredth of the compilation time."""
-
-_SAYS = __name__ != "derive.runtime.kernels"
-"""Whether a line says so; the commands of `derive`, which use that copy, show other progress."""
 
 SAID: list[str] = []
 """The line, once it has been written for the solver that is being loaded."""
@@ -144,7 +143,7 @@ if COMPILED:
 
     def _announce() -> None:
         """Say in one line on standard error why a call takes long."""
-        if _SAYS and sys.stderr is not None and not SAID:
+        if sys.stderr is not None and not SAID:
             SAID.append(COMPILING)
             print(COMPILING, file=sys.stderr, flush=True)
 

@@ -24,6 +24,6 @@ def text_of_body(g: Expr) -> str:
 
 @contextmanager
 def module_of(text: str) -> Iterator[ModuleType]:
-    """A text as a module; its kernels are those of derive/runtime, which are compiled once."""
+    """A text as a module; its kernels run as plain Python."""
     with imported("body", text, STUCK) as module:
         yield module

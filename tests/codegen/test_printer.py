@@ -3,6 +3,7 @@
 from itertools import product
 
 import mpmath
+import numba
 import numpy as np
 import pytest
 from sympy import (
@@ -73,6 +74,8 @@ from sympy import (
 
 from derive.codegen.printer import CannotPrint, NumPyPrinter
 from derive.runtime import elementary
+from generated.runtime import elementary as published
+from generated.runtime import kernels
 
 x, y, z = symbols("x y z", real=True)
 p, q = symbols("p q", positive=True)
@@ -208,6 +211,21 @@ def test_text_evaluates_to_the_expression(expr: Expr) -> None:
     for varying, arrays in product(VARYING, (False, True)):
         got = computed(expr, varying, arrays)
         assert all(map(agrees, got, wanted)), (NumPyPrinter(varying).doprint(expr), got, wanted)
+
+
+@pytest.mark.skipif(not kernels.COMPILED, reason="numba does not compile here")
+def test_numba_compiles_every_function_and_choice() -> None:
+    """A body is tried as plain Python before it is written; its users' kernels are compiled."""
+    nodes = [*FUNCTIONS, *CHOICES, *SUMS[:3], *POWERS[:9], *ROOTS[:4]]
+    lines = [f"    out[{i}] = {NumPyPrinter().doprint(node)}" for i, node in enumerate(nodes)]
+    names = {"np": np, "where": published.where}
+    text = "\n".join([f"def evaluated({', '.join(map(str, POINTS))}, out):", *lines])
+    exec(text, names)  # noqa: S102
+    compiled, got = numba.njit(names["evaluated"]), np.empty((3, len(nodes)))
+    for row, values in zip(got, zip(*POINTS.values(), strict=True), strict=True):
+        compiled(*values, row)
+    for node, column in zip(nodes, got.T, strict=True):
+        assert all(map(agrees, column, meant(node))), (node, column)
 
 
 @pytest.mark.parametrize("number", EXACT, ids=str)
