@@ -18,7 +18,7 @@ import numpy as np
 
 from .arrays import Numbers, evaluated, is_foreign, positive_or_nan, real, shape_of
 from .chunks import any_lazy, is_lazy, over_chunks
-from .words import EXAMPLES, Parameter, documented
+from .words import EXAMPLES, SAID, Parameter, documented
 
 CASES = 65_536
 """Number of cases that are solved at once."""
@@ -200,5 +200,5 @@ def with_options(call: Callable[..., Any], options: Mapping[str, Any]) -> Callab
 def kernel_of(loop: str) -> Any:
     """A kernel by its module in this package and its name, such as "forward.each_contact"."""
     module, _, name = loop.rpartition(".")
-    importlib.import_module(".kernels", __package__).SAID.clear()
+    SAID.clear()
     return getattr(importlib.import_module(f".{module}", __package__), name)

@@ -12,6 +12,9 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 COMPILING = "compiling the solver of this call, once per installation: up to a minute ..."
 """What a user reads while kernels are compiled."""
 
+SAID: list[str] = []
+"""This line, once it has been written for the solver that is being loaded."""
+
 NO_NUMBER = "an argument is not a real number or an array of real numbers"
 NO_CONTACT = (
     "a contact is not a Contact, or another argument is not a real number or an array of them"

@@ -21,7 +21,7 @@ import numpy as np
 
 from .elementary import where
 from .shared import SHARED
-from .words import COMPILING
+from .words import COMPILING, SAID
 
 COMPILED = __name__ != "derive.runtime.kernels"
 if COMPILED:
@@ -35,9 +35,6 @@ if COMPILED:
 PATIENCE = 0.7
 """Seconds after which a line says that kernels are being compiled; loading them from disk takes
 about a hundredth of the compilation time."""
-
-SAID: list[str] = []
-"""The line, once it has been written for the solver that is being loaded."""
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 

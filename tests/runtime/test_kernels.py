@@ -12,7 +12,7 @@ import pytest
 from generated.runtime import inverse, kernels  # noqa: F401
 from generated.runtime.body import kernel_of
 from generated.runtime.kernels import COMPILED, kernel, real
-from generated.runtime.words import COMPILING
+from generated.runtime.words import COMPILING, SAID
 
 ROOT = Path(__file__).parents[2]
 
@@ -35,7 +35,7 @@ def test_a_line_says_that_a_solver_is_compiled(
 ) -> None:
     """Once for each solver, on standard error, which here is neither a terminal nor Jupyter."""
     for _ in range(2):
-        monkeypatch.setattr(kernels, "SAID", ["before"])
+        SAID[:] = ["before"]
         kernel_of.cache_clear()
         kernel_of("forward.each_contact")  # its module has been loaded, so that nothing is compiled
         for _ in range(3):
