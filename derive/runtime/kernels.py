@@ -13,7 +13,6 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from threading import Timer
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -30,10 +29,6 @@ if COMPILED:
         COMPILED = False
     else:
         COMPILED = not numba.config.DISABLE_JIT
-
-PATIENCE = 0.7
-"""Seconds after which a line says that kernels are being compiled; loading them from disk takes
-about a hundredth of the compilation time."""
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
@@ -74,7 +69,7 @@ def _remove_stale_kernels() -> None:
 
 if COMPILED:
     from numba import types
-    from numba.core import cgutils
+    from numba.core import cgutils, event
     from numba.extending import intrinsic, overload, register_jitable
 
     _remove_stale_kernels()
@@ -124,12 +119,8 @@ if COMPILED:
         )
 
         def made(function: Kernel) -> Kernel:
-            timer = Timer(PATIENCE, _announce)
-            timer.start()
-            try:
+            with event.install_listener("numba:compile", _ANNOUNCEMENT):
                 return compiled(function)
-            finally:
-                timer.cancel()
 
         return made
 
@@ -138,11 +129,18 @@ if COMPILED:
         """`where` for two numbers."""
         return lambda condition, first, second: first if condition else second
 
-    def _announce() -> None:
-        """Say in one line on standard error why a call takes long."""
-        if sys.stderr is not None and not SAID:
-            SAID.append(COMPILING)
-            print(COMPILING, file=sys.stderr, flush=True)
+    class _Announcement(event.Listener):
+        """One line on standard error when numba compiles, not when it loads a kernel from disk."""
+
+        def on_start(self, _: Any) -> None:
+            if sys.stderr is not None and not SAID:
+                SAID.append(COMPILING)
+                print(COMPILING, file=sys.stderr, flush=True)
+
+        def on_end(self, _: Any) -> None:
+            """Say nothing more."""
+
+    _ANNOUNCEMENT = _Announcement()
 
     def _function_value(signature: Any, context: Any, builder: Any, address: Any) -> Any:
         """A function as a value, from the address of its code."""
