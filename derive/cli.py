@@ -346,7 +346,7 @@ def generate(
     """Derive, prove and write NumPy modules.
 
     Without arguments, modules are written for the whole library; otherwise, only for the geometries
-    named.
+    named.  A package that --out names is replaced as a whole.
 
     A body is taken from an earlier run if neither its geometry file nor the program has changed.
     Such bodies are kept in the directory that the environment variable DERIVE_CACHE names, or else
@@ -364,6 +364,8 @@ def generate(
     changed = order.write(bodies)
     output_table(view.summary(bodies))
     output(f"{'Wrote' if changed else 'Nothing to change in'} {path_of(order.target)}")
+    if lost := [d.name for d in changed if d.what == "not generated" and "/" not in d.name]:
+        output(f"Removed {', '.join(lost)}: name all bodies of a package in one command")
 
 
 @main.command()

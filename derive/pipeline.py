@@ -254,14 +254,15 @@ class Order:
         kept = modules_in(GENERATED) if self.folder is None and self.sources else {}
         return package_files(kept | made)
 
-    def write(self, bodies: Iterable[Body]) -> bool:
-        """Write the package; return False if nothing had to be changed."""
+    def write(self, bodies: Iterable[Body]) -> list[Difference]:
+        """Write the package; return how the directory differed from it before."""
         files = self.files(bodies)
-        if not differences(files, self.target):
+        found = differences(files, self.target)
+        if found:
+            publish(files, self.target, edited=self.folder is not None)  # git keeps our own package
+        else:
             remove_leftovers(self.target)
-            return False
-        publish(files, self.target, edited=self.folder is not None)  # git keeps our own package
-        return True
+        return found
 
     def check(self, bodies: Iterable[Body]) -> list[Difference]:
         """The differences between the directory and what would be written."""

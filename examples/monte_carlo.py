@@ -15,7 +15,7 @@ size of the chunks, any number of workers, and any order in which the workers fi
 To use a cluster of your own, start `dask scheduler` on one machine and
 `dask worker tcp://host:8786` on each machine, and give this address with `--scheduler`.  Clusters
 of batch systems and clouds also have an address.  The program sends the package `generated` to the
-cluster.  NumPy, SciPy and Dask must be installed there, in the same versions as on this machine.
+cluster.  NumPy, numba and Dask must be installed there, in the same versions as on this machine.
 """
 
 import argparse

@@ -452,8 +452,8 @@ class TestGenerate:
         assert contents(committed) == before
 
     def test_out_holds_what_was_asked_for_last_and_no_more(self, here: Path) -> None:
-        for name in ("wedge", "hertz"):
-            done("generate", name, "--out", "new")
+        assert "Removed" not in done("generate", "wedge", "--out", "new")
+        assert "Removed wedge.py: name all bodies" in done("generate", "hertz", "--out", "new")
         own = {n for n in contents(here / "new") if not n.startswith(("_", "runtime/"))}
         assert own == {"edge.py", "hertz.py", "full_stick.py", "py.typed", "files.sha256"}
 

@@ -265,8 +265,8 @@ def closing_tension(
     -------
     Threshold
         lower [Pa], upper [Pa].  Slip reverses before the zone closes; see tension_threshold.
-        NaN unless the reduced load is positive.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which means sliding.
+        NaN unless the reduced load is positive and the stick zone fits into the smaller contact.
+        Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
     """
     return _tensions(asked, "closing_tension", first, second, dQ, f, E_star)
 
@@ -308,7 +308,7 @@ def slip_zones(
 
     Orders 2 and 3 use the conditions of stick_zone with the first two or three terms of the
     pressure at each edge of both contacts, truncated after that power of d and then solved without
-    further approximation.
+    further approximation, provided that part of the contact sticks to the first order.
 
     Returns
     -------

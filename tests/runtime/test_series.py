@@ -85,8 +85,8 @@ def test_what_is_not_known():
     ):
         rows = ([1.5, 1.0, dQ, dsigma, F, da, 0, k] for k in (1, 2, 3))
         assert np.all(np.isnan(series(wedge, *rows))), (dQ, dsigma, da)
-    # nothing is left that sticks between both first orders
-    assert np.all(np.isnan(series(wedge, [1.5, 1.0, 0.1, 30, F, 0, 0, 1])))
+    # no part of the contact sticks to the first order
+    assert np.all(np.isnan(series(wedge, *([1.5, 1.0, 0.1, 30, F, 0, 0, k] for k in (1, 2, 3)))))
 
 
 @pytest.mark.parametrize("order", [1, 2, 3])

@@ -237,6 +237,7 @@ def test_each_regime():
     assert slip(hertz, 0.1, cycle, (*zone, MIXED)) == 0
     stuck, varying = (1.2, 1.0, FULL_STICK), (1.2, 1.0, 1.3, 1.1, 0.0, 0.0, f)
     assert change(hertz, 0.1, cycle, stuck) == slip(hertz, 0.1, cycle, stuck) == 0
+    assert np.isnan(change(hertz, math.nan, cycle, stuck))
     assert np.isnan(change(hertz, 0.1, varying, stuck))
     assert slip(hertz, 0.1, varying, stuck) == 0
     outside = change(hertz, [-2.0, 1.2, math.inf, math.nan], cycle, (*zone, LARGE))

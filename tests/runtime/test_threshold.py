@@ -48,7 +48,7 @@ def test_of_a_wedge_by_hand():
 def test_closing_tensions_close_a_slip_zone(case):
     a, c, f = 1.3, 1.25, 0.5
     first, second = state(case, a, c), state(case, 1.4, 1.35)
-    dQ = 0.4 * f * first[0]
+    dQ = f * first[0]
     lower, upper = closing(case, a, c, 1.4, 1.35, dQ, f)
     load = (first[0] + second[0] - dQ / f) / 2
     for tension, keeps in ((lower, "a"), (upper, "c")):
@@ -72,6 +72,11 @@ def test_tension_is_moderate_between_its_thresholds_and_not_beyond(case):
             case, *((*first, *second, dQ, bound * (1 + by), f) for by in (-1e-9, 1e-9))
         )
         assert inside[2] == MODERATE != outside[2]
+
+
+def test_no_tension_closes_a_zone_that_is_wider_than_the_smaller_contact():
+    """Without shear the zone carries the mean of both loads, of which P_1 is the smaller."""
+    assert np.isnan(closing(wedge, 1.0, 1.0, 1.1, 1.1, 0.0, 0.5)).all()
 
 
 def test_there_is_none_where_all_slides():

@@ -166,14 +166,15 @@ def beside_edges(
 ) -> Any:
     """Slip zones to an order in a contact of width h; a drive is pi sqrt(h) K_T.
 
-    NaN unless slip occurs at both edges of both contacts and part of the contact sticks.
+    NaN unless slip occurs at both edges of both contacts and part of the contact sticks.  If no
+    part sticks to the first order, the series is of no use at higher orders.
     """
     gain_left, gain_right = max(of.da, 0.0), max(of.dc, 0.0)
     # in the smaller contact: |K_T|/(f K_N) less half of the movement of the edge
     scale = math.pi * math.sqrt(h) * f
     left = abs(drive_left) / (scale * of.left[0]) - abs(of.da) / 2
     right = abs(drive_right) / (scale * of.right[0]) - abs(of.dc) / 2
-    if order > 1:
+    if order > 1 and left + right + gain_left + gain_right < h:
         left, right = _solved(of, left, right, order)
     left, right = left + gain_left, right + gain_right
     if left >= gain_left and right >= gain_right and left + right < h:

@@ -86,10 +86,11 @@ def _summed(law: Any, own: Any, cycle: Any, x: float) -> Any:
 @kernel(real(LAW, vector, vector, real, real, real, real))
 def change_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x: float) -> Any:
     """dq at x; zero outside both contacts, NaN where the stick zone is not known."""
+    if math.isnan(x):
+        return math.nan
     if regime == FULL_STICK and _alike(cycle):
         return 0.0
-    stuck = m + n
-    if regime not in (MODERATE, LARGE, MIXED) or not stuck < math.inf or math.isnan(x):
+    if regime not in (MODERATE, LARGE, MIXED) or not m + n < math.inf:
         return math.nan
     f = cycle[6]
     if x <= -m or x >= n:

@@ -156,7 +156,10 @@ def each_closing_tension(law: Any, given: Any, own: Any, out: Any) -> None:
     for i in range(given.shape[0]):
         cycle = _without_tension(given[i])
         ends = ends_of(law, own[i], cycle)
-        out[i, 0] = out[i, 1] = math.nan
+        lower = upper = math.nan
         if exists(ends, cycle) and resolved(ends):
-            out[i, 0] = _closing(law, own[i], ends, cycle, -1.0)
-            out[i, 1] = _closing(law, own[i], ends, cycle, 1.0)
+            lower = _closing(law, own[i], ends, cycle, -1.0)
+            upper = _closing(law, own[i], ends, cycle, 1.0)
+            if lower > upper:  # at any tension the zone is wider than the smaller contact
+                lower = upper = math.nan
+        out[i, 0], out[i, 1] = lower, upper
