@@ -163,9 +163,9 @@ def stick_zone(
         because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
-        loads.  Under large tension, or if a moment rocks the contact, no zone sticks if the mean
-        shear load is too high; march and steady_cycle check this.  steady_cycle solves every
-        cycle and estimates the error of computed results.
+        loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
+        sticks if the mean shear load is too high; steady_cycle checks this, and march does unless
+        slip reverses.  steady_cycle solves every cycle and estimates the error of computed results.
 
     Raises
     ------

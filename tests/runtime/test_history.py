@@ -31,7 +31,7 @@ from tests.reference.mesh import graded
 from tests.reference.normal import Body as Profile
 from tests.reference.normal import press
 
-from .laws import flat_rounded, hertz, wedge
+from .laws import flat_rounded, hertz, state, wedge
 
 F = 0.5
 LOAD = math.pi / 4
@@ -477,6 +477,22 @@ def test_cycles_in_which_slip_reverses_are_as_exact_as_can_be(part):
     assert varied.regime == COMPUTED
     off = max(abs(varied.m - alone.m), abs(varied.n - alone.n)) / (alone.m + alone.n)
     assert off < varied.error < 5e-3
+
+
+@pytest.mark.parametrize(("case", "tension", "mean"), [(hertz, 4.56, 0.15), (wedge, 1.98, 0.45)])
+def test_a_zone_between_reversed_slip_carries_less_than_f_p(case, tension, mean):
+    """The changes in the loads leave a zone that sticks if the mean of Q is low; else all slips."""
+    way, h = np.array([-0.5, 0.5, -0.5]), 2.0
+    load = state(case, h / 2, h / 2)[0]
+    sigma = 8 * F * load / (math.pi * h) * tension * way
+    inside = np.linspace(0.2, 0.5, 4)
+    found = [
+        steady_cycle(case, load, 0.0, F * load * (mean + way), sigma, x=inside)
+        for mean in (0.0, mean)
+    ]
+    assert [cycle.regime for cycle in found] == [Regime.MIXED, NO_STICK]
+    assert np.all(found[0].slip_range < 1e-3 * np.min(found[1].slip_range))
+    assert np.isnan(found[1].m) and np.isnan(found[1].n)
 
 
 def test_cycles_that_stick_nowhere_or_slide():

@@ -15,7 +15,9 @@ directions and carry little.  If nothing slips under the changes in the loads, i
 the moment rocks the contact and Q and sigma are constant: dq = 0, and the limits hold on the whole
 path.  If both edges advance, |dq| <= f dp everywhere, so that |Q| < f P is enough.  Under moderate
 tension f p1 + dq = f p2 + 2 f (p1 - p_s) is above f p2, p_s being the pressure of the contact
-[-m, n], which is below p1: every Q < f P2 can be carried.
+[-m, n], which is below p1: every Q < f P2 can be carried.  The same holds if forward slip overtakes
+reversed slip, because it ends in the moderate solution.  Other zones between reversed slip carry
+less; the elements of a steady cycle tell whether they can carry Q.
 """
 
 import math

@@ -24,6 +24,10 @@ _CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": 
 TURNING = 1e-7
 """Error of a zone from stick_zone with mixed=True, relative to the contact width."""
 
+CONFIRMED = 0.1
+"""Such a zone is permanent if the elements find its ends to within this fraction of its width.
+They find no zone, or a much narrower one, if the zone cannot carry the mean shear load."""
+
 
 class _Given(NamedTuple):
     """Rows for a kernel, one per history.
@@ -141,7 +145,8 @@ def steady_cycle(
 
     In this case m and n are exact, whatever the phase between P and Q, and the regime is MODERATE.
     Where stick_zone is exact, m and n are its results, with mixed=True if the normal loads are
-    constant.  Otherwise the history is repeated until slip repeats.  The stick zone then consists
+    constant and the elements confirm the zone.  Otherwise the history is repeated until slip
+    repeats.  The stick zone then consists
     of the points whose total slip in the last cycle, forward plus reverse, is below 1e-4 of the
     largest, or 5e-4 on fewer than 512 elements.  The shift of its ends at a threshold of 3e-3 is
     part of the error.
@@ -182,7 +187,9 @@ def steady_cycle(
     m, n, regime, work, rounds, drift, *errors = (columns[..., i] for i in range(ZONE))
     error, work_error, slip_error, shear_error = errors
     zone, accuracy = _exact(asked, numbers)
-    known = np.isfinite(zone.m)
+    apart = np.maximum(np.abs(zone.m - m), np.abs(zone.n - n))
+    permanent = (zone.regime != Regime.MIXED) | (apart <= CONFIRMED * (zone.m + zone.n))
+    known = np.isfinite(zone.m) & permanent
     m, n = np.where(known, zone.m, m), np.where(known, zone.n, n)
     regime = np.where(known, zone.regime, regime).astype(np.int64)
     error = np.where(known, accuracy, error)
