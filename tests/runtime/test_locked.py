@@ -20,27 +20,27 @@ GIVEN = {"f": F, "E_star": 1.0, "R": 1.0}
 
 @kernel(LOOP)
 def _each(law, given, own, out):
-    """given: a cycle, m, n, the regime and Q; out: whether the zone carries Q."""
+    """given: a cycle, its regime and Q; out: whether the zone carries Q."""
     law = opened(law)
     for i in range(given.shape[0]):
         row = given[i]
         cycle = row[:7].copy()
         ends = ends_of(law, own[i], cycle)
-        holds = holds_load(law, own[i], ends, cycle, row[7], row[8], row[9], row[10])
+        holds = holds_load(law, own[i], ends, cycle, row[7], row[8])
         out[i, 0] = 1.0 if holds else 0.0
 
 
-def carries(cycle, m, n, regime, Q):
-    return bool(solved(_each, hertz, [*cycle, m, n, regime, Q], 1))
+def carries(cycle, regime, Q):
+    return bool(solved(_each, hertz, [*cycle, regime, Q], 1))
 
 
-def demand_limits(cycle, m, n, regime, lowest, highest):
+def demand_limits(cycle, regime, lowest, highest):
     """Within 0.2 % of f P of both limits; the integrals are accurate to 0.1 %."""
     off = 2e-3 * F * math.pi / 4
-    assert carries(cycle, m, n, regime, highest - off)
-    assert not carries(cycle, m, n, regime, highest + off)
-    assert carries(cycle, m, n, regime, lowest + off)
-    assert not carries(cycle, m, n, regime, lowest - off)
+    assert carries(cycle, regime, highest - off)
+    assert not carries(cycle, regime, highest + off)
+    assert carries(cycle, regime, lowest + off)
+    assert not carries(cycle, regime, lowest - off)
 
 
 @pytest.mark.parametrize("d", [0.1, 0.4])
@@ -53,7 +53,7 @@ def test_a_cylinder_that_is_rocked(d):
     """
     highest = F * (math.pi / 4 - (d * math.sqrt(1 - d * d) + math.asin(d)) / 2)
     cycle = [1 + d, 1 - d, 1 - d, 1 + d, 0.0, 0.0, F]
-    demand_limits(cycle, 1 - d, 1 - d, FULL_STICK, -highest, highest)
+    demand_limits(cycle, FULL_STICK, -highest, highest)
 
 
 @pytest.mark.parametrize("tension", [0.3, -0.5])
@@ -69,9 +69,9 @@ def test_tension_alone(tension):
     highest = F * math.pi / 4 - half
     assert 0.2 < highest / (F * math.pi / 4) < 0.95
     cycle = [1.0, 1.0, 1.0, 1.0, 0.0, tension, F]
-    demand_limits(cycle, float(zone.m), float(zone.n), LARGE, -highest, highest)
+    demand_limits(cycle, LARGE, -highest, highest)
 
 
 def test_under_moderate_tension_every_load_below_sliding_is_carried():
     cycle = [1.0, 1.0, 1.0, 1.0, 0.1, 0.02, F]
-    assert carries(cycle, 0.9, 0.9, MODERATE, 0.999 * F * math.pi / 4)
+    assert carries(cycle, MODERATE, 0.999 * F * math.pi / 4)

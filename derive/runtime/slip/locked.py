@@ -1,34 +1,38 @@
 r"""Whether the stick zone can carry the shear load of the cycle.
 
 The stick zone follows from the changes in the loads, dQ and dsigma.  It is permanent only if there
-is a shear traction q1 at the first end of the half-cycle that carries Q there and is within the
-friction limit at both ends:
+is a shear traction q1 at the first end of the half-cycle that carries Q there and never exceeds the
+friction limit.  Let dq be the change since the last end, p the pressure at the same instant, and
+dq_12 the change over the whole half-cycle.  On the way there, and on the way back,
 
-    -f p1 <= q1 <= f p1,    -f p2 <= q1 + dq <= f p2.
+    -f p <= q1 + dq <= f p,    -f p <= q1 + dq_12 - dq <= f p.
 
 Then Q lies between the integrals of the largest lower and the smallest upper of these limits.  In a
 slip zone both are equal, and q1 is -f p1 or f p1.  If Q lies outside, every point slips in every
 cycle, and the bodies ratchet along each other although |Q| < f P.
 
 Under large tension at a high mean shear load this happens, because the slip zones slip in opposite
-directions and carry little.  If nothing slips under the changes in the loads, it happens only if
-the moment rocks the contact and Q and sigma are constant: dq = 0, and the limits hold on the whole
-path.  If both edges advance, |dq| <= f dp everywhere, so that |Q| < f P is enough.  Under moderate
-tension f p1 + dq = f p2 + 2 f (p1 - p_s) is above f p2, p_s being the pressure of the contact
-[-m, n], which is below p1: every Q < f P2 can be carried.  The same holds if forward slip overtakes
-reversed slip, because it ends in the moderate solution.  Other zones between reversed slip carry
-less; the elements of a steady cycle tell whether they can carry Q.
+directions and carry little.  In parts of the stick zone dq falls before it rises, or the reverse,
+so that instants between the ends count as well.  If nothing slips under the changes in the loads,
+it happens only if the moment rocks the contact and Q and sigma are constant: dq = 0.  If both edges
+advance, |dq| <= f dp everywhere, so that |Q| < f P is enough.  Under moderate tension dq grows
+everywhere, and f p1 + dq = f p2 + 2 f (p1 - p_s) is above f p2, p_s being the pressure of the
+contact [-m, n], which is below p1: every Q < f P2 can be carried.  The same holds if forward slip
+overtakes reversed slip, because it ends in the moderate solution.  Other zones between reversed
+slip carry less; the elements of a steady cycle tell whether they can carry Q.
 """
 
 import math
 from typing import Any
 
+import numpy as np
+
 from ..kernels import LAW, kernel, matrix, real, results, truth, vector
 from ..types import FULL_STICK, LARGE
-from .bounded import beside, change, friction, oriented, sense_of
-from .growth import load_path
+from .bounded import change, oriented, sense_of
+from .growth import AGREED, PARTS, load_path
+from .large import large_slip
 from .moderate import LOAD, A, C
-from .shear import LEVEL
 
 POINTS = 200
 """Points at which the limits are integrated."""
@@ -46,26 +50,54 @@ def _point(first: Any, second: Any, part: float) -> Any:
     return x, math.pi / POINTS * (left + right) / 2 * math.sin(angle)
 
 
-@kernel(results(2)(LAW, vector, matrix, vector, real, real))
-def _limits_under_large_tension(
-    law: Any, own: Any, ends: Any, cycle: Any, m: float, n: float
-) -> Any:
+@kernel(vector(LAW, vector, vector, vector))
+def _changes(law: Any, own: Any, cycle: Any, places: Any) -> Any:
+    """dq at the given points in a cycle under large tension; NaN if its stick zone is not found."""
+    sense = sense_of(cycle)
+    slip = large_slip(law, own, oriented(cycle), sense, AGREED)
+    changes = np.empty(places.size)
+    for i in range(places.size):
+        x = sense * places[i]
+        if not slip.m + slip.n > 0:
+            changes[i] = math.nan
+        elif -slip.m < x < slip.n:
+            changes[i] = change(slip, x)
+        else:
+            p = law.pressure(places[i], cycle[0], cycle[1], own)
+            p += law.pressure(places[i], cycle[2], cycle[3], own)
+            changes[i] = cycle[6] * p if x <= -slip.m else -cycle[6] * p
+    return changes
+
+
+@kernel(results(2)(LAW, vector, matrix, vector))
+def _limits_under_large_tension(law: Any, own: Any, path: Any, cycle: Any) -> Any:
     """The lowest and the highest Q at the first end."""
-    f, sense, lowest, highest = cycle[6], sense_of(cycle), 0.0, 0.0
-    of = friction(law, own, oriented(cycle), sense, -1.0, math.nan)
-    inner, outer = (m, n) if sense > 0 else (n, m)
-    slip = beside(of, inner, outer, of.a - inner, of.c - outer, LEVEL)
+    f, last = cycle[6], path.shape[0] - 1
+    places, weights = np.empty(POINTS), np.empty(POINTS)
     for i in range(POINTS):
-        x, weight = _point(ends[0], ends[1], (i + 0.5) / POINTS)
-        first = f * law.pressure(x, ends[0, A], ends[0, C], own)
-        second = f * law.pressure(x, ends[1, A], ends[1, C], own)
-        if not first + second < math.inf:
-            continue  # at a corner
-        dq = change(slip, sense * x)
-        if x <= -m or x >= n:
-            dq = first + second if (x <= -m) == (sense > 0) else -first - second
-        highest += weight * min(first, second - dq)
-        lowest += weight * max(-first, -second - dq)
+        places[i], weights[i] = _point(path[0], path[last], (i + 0.5) / POINTS)
+    lower, upper = np.full(POINTS, -math.inf), np.full(POINTS, math.inf)
+    final, partial = _changes(law, own, cycle, places), cycle.copy()
+    for back in range(2):
+        for k in range(PARTS):
+            start = last if back else 0
+            now = k if last == PARTS else 0
+            now = last - now if back else now
+            dq = np.zeros(POINTS)
+            if k > 0:
+                partial[0], partial[1] = path[start, A], path[start, C]
+                partial[2], partial[3] = path[now, A], path[now, C]
+                partial[4], partial[5] = k / PARTS * cycle[4], k / PARTS * cycle[5]
+                dq = _changes(law, own, partial, places)
+            for i in range(POINTS):
+                since = final[i] - dq[i] if back else dq[i]
+                limit = f * law.pressure(places[i], path[now, A], path[now, C], own)
+                if limit < math.inf and not math.isnan(since):  # infinite at a corner
+                    lower[i], upper[i] = max(lower[i], -limit - since), min(upper[i], limit - since)
+    lowest = highest = 0.0
+    for i in range(POINTS):
+        if math.isfinite(lower[i] + upper[i]):
+            lowest, highest = lowest + weights[i] * lower[i], highest + weights[i] * upper[i]
     return lowest, highest
 
 
@@ -83,20 +115,18 @@ def _limit_at_constant_shear(law: Any, own: Any, path: Any, f: float) -> float:
     return highest
 
 
-@kernel(truth(LAW, vector, matrix, vector, real, real, real, real))
-def holds_load(
-    law: Any, own: Any, ends: Any, cycle: Any, m: float, n: float, regime: float, Q: float
-) -> Any:
-    """Whether a cycle whose shear load is Q at its first end can stick in [-m, n].
+@kernel(truth(LAW, vector, matrix, vector, real, real))
+def holds_load(law: Any, own: Any, ends: Any, cycle: Any, regime: float, Q: float) -> Any:
+    """Whether the stick zone of a cycle can carry Q, the shear load at its first end.
 
     ends  both contacts, as returned by zone.ends_of
     """
     f = cycle[6]
     rough = ROUGH * f * min(ends[0, LOAD], ends[1, LOAD])
+    path = load_path(law, own, ends)
     if regime == LARGE:
-        lowest, highest = _limits_under_large_tension(law, own, ends, cycle, m, n)
+        lowest, highest = _limits_under_large_tension(law, own, path, cycle)
         return lowest - rough <= Q <= highest + rough
     if regime == FULL_STICK and cycle[4] == cycle[5] == 0:
-        path = load_path(law, own, ends)
         return abs(Q) <= _limit_at_constant_shear(law, own, path, f) + rough
     return True

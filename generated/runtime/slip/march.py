@@ -275,10 +275,10 @@ def each_march(law: Any, given: Array, own: Array, out: Array) -> None:
             continue
         low, high = np.argmin(progress), np.argmax(progress)
         cycle = _half_cycle(loads, contacts, roundings, f, low, high, 1.0)
-        m, n, regime = stick_zone(law, body, cycle)
+        m, _, regime = stick_zone(law, body, cycle)
         both = np.empty((2, 5))
         both[0], both[1] = contacts[low], contacts[high]
-        if not holds_load(law, body, both, cycle, m, n, regime, loads[Q, low]):
+        if not holds_load(law, body, both, cycle, regime, loads[Q, low]):
             m, regime = math.nan, NO_STICK
         _begin(found, contacts, regime)
         kappa = -1.0 if regime == LARGE and cycle[5] < 0 else 1.0
