@@ -2,8 +2,8 @@ r"""Whether the stick zone can carry the shear load of the cycle.
 
 The stick zone follows from the changes in the loads, dQ and dsigma.  It is permanent only if there
 is a shear traction q1 at the first end of the half-cycle that carries Q there and never exceeds the
-friction limit.  Let dq be the change since the last end, p the pressure at the same instant, and
-dq_12 the change over the whole half-cycle.  On the way there, and on the way back,
+friction limit.  Let dq be the change in a half-cycle up to some instant, p the pressure at that
+instant, and dq_12 the change over the whole half-cycle.  On the way there, and on the way back,
 
     -f p <= q1 + dq <= f p,    -f p <= q1 + dq_12 - dq <= f p.
 
@@ -123,10 +123,11 @@ def holds_load(law: Any, own: Any, ends: Any, cycle: Any, regime: float, Q: floa
     """
     f = cycle[6]
     rough = ROUGH * f * min(ends[0, LOAD], ends[1, LOAD])
-    path = load_path(law, own, ends)
     if regime == LARGE:
+        path = load_path(law, own, ends)
         lowest, highest = _limits_under_large_tension(law, own, path, cycle)
         return lowest - rough <= Q <= highest + rough
     if regime == FULL_STICK and cycle[4] == cycle[5] == 0:
+        path = load_path(law, own, ends)
         return abs(Q) <= _limit_at_constant_shear(law, own, path, f) + rough
     return True

@@ -146,10 +146,9 @@ def steady_cycle(
     In this case m and n are exact, whatever the phase between P and Q, and the regime is MODERATE.
     Where stick_zone is exact, m and n are its results, with mixed=True if the normal loads are
     constant and the elements confirm the zone.  Otherwise the history is repeated until slip
-    repeats.  The stick zone then consists
-    of the points whose total slip in the last cycle, forward plus reverse, is below 1e-4 of the
-    largest, or 5e-4 on fewer than 512 elements.  The shift of its ends at a threshold of 3e-3 is
-    part of the error.
+    repeats.  The stick zone then consists of the points whose total slip in the last cycle, forward
+    plus reverse, is below 1e-4 of the largest, or 5e-4 on fewer than 512 elements.  The shift of
+    its ends at a threshold of 3e-3 is part of the error.
 
     Returns
     -------
