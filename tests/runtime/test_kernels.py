@@ -59,6 +59,7 @@ def test_each_solver_has_a_line_of_its_own(
 WITHOUT_NUMBA = """
 import sys
 sys.modules["numba"] = None
+from generated.runtime import inverse, kernels  # noqa: F401
 from generated.runtime.body import kernel_of
 from generated import hertz
 assert not kernels.COMPILED
