@@ -23,9 +23,9 @@ _CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": 
 TURNING = 1e-7
 """Error of a zone from stick_zone with mixed=True, relative to the contact width."""
 
-CONFIRMED = 0.1
-"""Such a zone is permanent if the elements find its ends to within this fraction of its width.
-They find no zone, or a much narrower one, if the zone cannot carry the mean shear load."""
+STILL = 1e-4
+"""Such a zone is permanent if its middle slips by less than this fraction of the work over f P, the
+slip of all points on average.  If it cannot carry the mean shear load, it slips at every point."""
 
 
 class _Given(NamedTuple):
@@ -144,10 +144,10 @@ def steady_cycle(
 
     In this case m and n are exact, whatever the phase between P and Q, and the regime is MODERATE.
     Where stick_zone is exact, m and n are its results, with mixed=True if the normal loads are
-    constant and the elements confirm the zone.  Otherwise the history is repeated until slip
-    repeats.  The stick zone then consists of the points whose total slip in the last cycle, forward
-    plus reverse, is below 1e-4 of the largest, or 5e-4 on fewer than 512 elements.  The shift of
-    its ends at a threshold of 3e-3 is part of the error.
+    constant and the middle of the zone does not slip on elements.  Otherwise the history is
+    repeated until slip repeats.  The stick zone then consists of the points whose total slip in the
+    last cycle, forward plus reverse, is below 1e-4 of the largest, or 5e-4 on fewer than 512
+    elements.  The shift of its ends at a threshold of 3e-3 is part of the error.
 
     Returns
     -------
@@ -176,26 +176,32 @@ def steady_cycle(
     if any_lazy(numbers.values()):
         return over_chunks(asked.call, SteadyCycle, _CYCLES, numbers, x, tol)
     numbers |= dict(zip(_LOADS, _closed(tuple(numbers[k] for k in _LOADS)), strict=True))
+    zone, accuracy = _exact(asked, numbers)
     given = _given(asked, numbers, x, tol)
     points = np.shape(x) if x is not None else ()
     count = math.prod(points) if x is not None else 0
-    out = np.empty((given.rows.shape[0], ZONE + 2 * count))
-    run("history.solve.each_cycle", asked.body.law, given.rows, given.own, out)
-    columns = out.reshape((*given.cycles, ZONE + 2 * count))
+    # the middle of the exact zone is one more point
+    middle = np.broadcast_to((zone.n - zone.m) / 2, given.cycles)
+    rows = np.column_stack([given.rows, middle.ravel()])
+    rows[:, 2] += 1
+    out = np.empty((rows.shape[0], ZONE + 2 * (count + 1)))
+    run("history.solve.each_cycle", asked.body.law, rows, given.own, out)
+    columns = out.reshape((*given.cycles, ZONE + 2 * (count + 1)))
+    slips, tractions = np.split(columns[..., ZONE:], 2, axis=-1)
     m, n, regime, work, rounds, drift, *errors = (columns[..., i] for i in range(ZONE))
     error, work_error, slip_error, shear_error = errors
-    zone, accuracy = _exact(asked, numbers)
-    apart = np.maximum(np.abs(zone.m - m), np.abs(zone.n - n))
-    permanent = (zone.regime != Regime.MIXED) | (apart <= CONFIRMED * (zone.m + zone.n))
-    known = np.isfinite(zone.m) & permanent
+    with np.errstate(all="ignore"):
+        limit = np.max(numbers["f"] * numbers["P"], axis=-1)
+        still = slips[..., -1] * limit <= STILL * work * given.E_star
+    still &= regime == Regime.COMPUTED
+    known = np.isfinite(zone.m) & ((zone.regime != Regime.MIXED) | still)
     m, n = np.where(known, zone.m, m), np.where(known, zone.n, n)
     regime = np.where(known, zone.regime, regime).astype(np.int64)
     error = np.where(known, accuracy, error)
     q = slip = None
     if x is not None:
-        slip = columns[..., ZONE : ZONE + count].reshape((*given.cycles, *points))
-        tractions = columns[..., ZONE + count :] * given.E_star[..., None]
-        q = tractions.reshape((*given.cycles, *points))
+        slip = slips[..., :-1].reshape((*given.cycles, *points))
+        q = (tractions[..., :-1] * given.E_star[..., None]).reshape((*given.cycles, *points))
     rounds = np.nan_to_num(rounds).astype(np.int64)
     work, work_error, shear_error = (v * given.E_star for v in (work, work_error, shear_error))
     errors = [error, work_error, slip_error, shear_error]
