@@ -364,7 +364,7 @@ def generate(
     changed = order.write(bodies)
     output_table(view.summary(bodies))
     output(f"{'Wrote' if changed else 'Nothing to change in'} {path_of(order.target)}")
-    if lost := [d.name for d in changed if d.what == "not generated" and "/" not in d.name]:
+    if lost := [d.name for d in changed if d.removed and "/" not in d.name]:
         output(f"Removed {', '.join(lost)}: name all bodies of a package in one command")
 
 

@@ -49,6 +49,11 @@ class Difference:
     diff: str = ""
 
     @property
+    def removed(self) -> bool:
+        """Whether the generated package does not have this file."""
+        return self.what == "not generated"
+
+    @property
     def lines(self) -> list[str]:
         """The lines of the diff."""
         return self.diff.splitlines()

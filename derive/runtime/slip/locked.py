@@ -33,6 +33,7 @@ from .bounded import change, oriented, sense_of
 from .growth import AGREED, PARTS, load_path
 from .large import large_slip
 from .moderate import LOAD, A, C
+from .shear import pressures
 
 POINTS = 200
 """Points at which the limits are integrated."""
@@ -63,9 +64,8 @@ def _changes(law: Any, own: Any, cycle: Any, places: Any) -> Any:
         elif -slip.m < x < slip.n:
             changes[i] = change(slip, x)
         else:
-            p = law.pressure(places[i], cycle[0], cycle[1], own)
-            p += law.pressure(places[i], cycle[2], cycle[3], own)
-            changes[i] = cycle[6] * p if x <= -slip.m else -cycle[6] * p
+            limit = cycle[6] * pressures(law, own, cycle, places[i])
+            changes[i] = limit if x <= -slip.m else -limit
     return changes
 
 
@@ -78,13 +78,12 @@ def _limits_under_large_tension(law: Any, own: Any, path: Any, cycle: Any) -> An
         places[i], weights[i] = _point(path[0], path[last], (i + 0.5) / POINTS)
     lower, upper = np.full(POINTS, -math.inf), np.full(POINTS, math.inf)
     final, partial = _changes(law, own, cycle, places), cycle.copy()
-    for back in range(2):
-        for k in range(PARTS):
-            start = last if back else 0
-            now = k if last == PARTS else 0
-            now = last - now if back else now
-            dq = np.zeros(POINTS)
-            if k > 0:
+    for k in range(PARTS):
+        dq = np.zeros(POINTS)
+        for back in range(2):
+            # under constant loads all rows of the path are one contact, and both ways are the same
+            start, now = (last, max(last - k, 0)) if back else (0, min(k, last))
+            if k > 0 and (not back or last > 1):
                 partial[0], partial[1] = path[start, A], path[start, C]
                 partial[2], partial[3] = path[now, A], path[now, C]
                 partial[4], partial[5] = k / PARTS * cycle[4], k / PARTS * cycle[5]

@@ -76,7 +76,7 @@ def _beside_corner(law: Any, own: Any, x: float, m: float, n: float) -> Any:
 
 
 @kernel(real(LAW, vector, vector, real))
-def _summed(law: Any, own: Any, cycle: Any, x: float) -> Any:
+def pressures(law: Any, own: Any, cycle: Any, x: float) -> Any:
     """p1 + p2; infinite at a corner."""
     p = law.pressure(x, cycle[0], cycle[1], own)
     return 2 * p if _alike(cycle) else p + law.pressure(x, cycle[2], cycle[3], own)
@@ -95,14 +95,14 @@ def change_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float,
     if x <= -m or x >= n:
         on_left = x < (n - m) / 2
         forward = regime != LARGE or on_left != (cycle[5] < 0)
-        return (f if forward else -f) * _summed(law, own, cycle, x)
+        return (f if forward else -f) * pressures(law, own, cycle, x)
     if regime == LARGE:
         sense, cycle = sense_of(cycle), oriented(cycle)
         of = friction(law, own, cycle, sense, -1.0, math.nan)
         m, n = (m, n) if sense > 0 else (n, m)
         return change(beside(of, m, n, of.a - m, of.c - n, LEVEL), sense * x)
     x = _beside_corner(law, own, x, m, n)
-    return f * (_summed(law, own, cycle, x) - 2 * law.pressure(x, m, n, own))
+    return f * (pressures(law, own, cycle, x) - 2 * law.pressure(x, m, n, own))
 
 
 @kernel(LOOP)
