@@ -4,9 +4,10 @@ In:  a FormulaSheet.
 Out: source text in C, Fortran, JavaScript, Julia or MATLAB.
 
 Each closed formula of a generated module becomes a function of scalars, whose steps are the symbols
-that the sheet defines.  It returns NaN if its conditions are not met.  The formula is printed as
-derived.  Unlike the formulas of the generated module, it is not rewritten for floating point, so it
-loses digits where its terms cancel, for example next to a kink.
+that the sheet defines.  In Fortran it takes arrays as well.  It returns NaN where its
+conditions are not met.  The formula is printed as derived.  Unlike the formulas of the generated
+module, it is not rewritten for floating point, so it loses digits where its terms cancel, for
+example next to a kink.
 """
 
 import shlex
@@ -82,19 +83,22 @@ class Language:
     last: str = ""
     ignores_case: bool = False
 
+    def read(self, name: str) -> str:
+        """A name as the language reads it: names that are read alike are the same name."""
+        return name.lower() if self.ignores_case else name
+
 
 class _Fortran(FCodePrinter):
-    """Prints whole numbers in max and min as reals, because their arguments must have one type."""
+    """Prints as reals the whole numbers in max and min, and those too long for an integer."""
 
     def _print_Max(self, expr: Expr) -> str:
-        return self._of_reals("max", expr)
-
-    def _print_Min(self, expr: Expr) -> str:
-        return self._of_reals("min", expr)
-
-    def _of_reals(self, name: str, expr: Expr) -> str:
         args = (f"{arg}.0d0" if arg.is_Integer else self._print(arg) for arg in expr.args)
-        return f"{name}({', '.join(args)})"
+        return f"{type(expr).__name__.lower()}({', '.join(args)})"
+
+    _print_Min = _print_Max
+
+    def _print_Integer(self, expr: Expr) -> str:
+        return f"{expr}.0d0" if abs(expr) >= 2**31 else str(expr)
 
 
 def code_of(sheet: FormulaSheet, language: str, given: str = "") -> str:
@@ -107,8 +111,9 @@ def code_of(sheet: FormulaSheet, language: str, given: str = "") -> str:
     spoken, geometry = LANGUAGES[language], sheet.geometry
     formulas = {name: function for function in CONTRACT for name in function.formulas}
     closed = {n: f for n, f in formulas.items() if n in sheet and _is_elementary(sheet.flat(n))}
-    symbols = {s for f in closed.values() for s in (*f.arguments, *f.keywords(sheet))}
-    _demand_names(geometry.name, language, map(str, symbols))
+    names = {s.name for f in closed.values() for s in (*f.arguments, *f.keywords(sheet))}
+    own = {q.name for q in geometry.parameters}  # last, because only these can be renamed
+    _demand_names(geometry.name, language, closed, [*sorted(names - own), *sorted(names & own)])
     lacking = [name for name in formulas if name in sheet and name not in closed]
     handles = "\n".join(f"    functions.{name} = @{name};" for name in closed)
     first = spoken.first.format(body=geometry.name, handles=handles)
@@ -145,7 +150,7 @@ def _function(
     sheet: FormulaSheet, name: str, function: contract.Function, language: Language
 ) -> str:
     """One formula as a function; the symbols of the sheet that occur in it become steps."""
-    formula, print_ = sheet[name], _printing(language)
+    body, formula, print_ = sheet.geometry.name, sheet[name], _printing(language)
     symbols = (*function.arguments, *function.keywords(sheet))
     steps = [Step(s, expr, "") for s, expr in sheet.defined_in(name).items()]
     steps += [Step(e, M / P, "")] if P in symbols else []
@@ -156,18 +161,26 @@ def _function(
         program = program.mapped(lambda expr: expr.xreplace({x: inside.symbol})).with_steps(inside)
         condition = And(condition, Eq(x, Symbol(x.name)))  # in C, a maximum ignores NaN
         words += "; zero outside the contact"
-    program = program.ordered().renamed([*map(str, symbols), _VALUE])
+    program = _renamed(program.ordered(), [body, *map(str, symbols), _VALUE], language)
     values = {print_(step.symbol): print_(step.expr) for step in program.steps}
     text = language.function.format(
-        body=sheet.geometry.name,
+        body=body,
         name=name,
         arguments=", ".join(language.argument.format(print_(symbol)) for symbol in symbols),
-        locals=", ".join([_VALUE, *values]),
+        locals=" &\n        ".join(textwrap.wrap(", ".join([_VALUE, *values]), 96)),
         condition=print_(condition),
         steps="".join(language.step.format(*step) + "\n" for step in values.items()),
         value=print_(program.outputs[name]),
     )
     return "\n".join([*_comment([f"{formula.head}, {words}"], language), text])
+
+
+def _renamed(program: Program, taken: list[str], language: Language) -> Program:
+    """The program with names for its steps that the language tells from those taken."""
+    program, read = program.renamed(taken), {language.read(name) for name in taken}
+    while same := [s.symbol.name for s in program.steps if language.read(s.symbol.name) in read]:
+        program = program.renamed([*taken, *same])
+    return program
 
 
 def _printing(language: Language) -> Callable[[Basic], str]:
@@ -181,18 +194,18 @@ def _printing(language: Language) -> Callable[[Basic], str]:
     return printed
 
 
-def _demand_names(body: str, language: str, names: Iterable[str]) -> None:
-    spoken, given = LANGUAGES[language], sorted({body, *names})
-    for name in given:
-        if name in (*spoken.keywords.split(), _VALUE):
+def _demand_names(body: str, language: str, taken: Iterable[str], given: Iterable[str]) -> None:
+    """Refuse a name that the language or the printed file uses for something else."""
+    spoken = LANGUAGES[language]
+    seen = {spoken.read(name): name for name in (*spoken.keywords.split(), _VALUE, *taken)}
+    for name in (body, *given):
+        first = seen.get(spoken.read(name))
+        if first == name:
             raise NoSuchName(body, language, name, "cannot be used as a name in that language")
-    seen: dict[str, str] = {}
-    for name in given if spoken.ignores_case else ():
-        if seen.setdefault(name.lower(), name) != name:
-            why = (
-                f"is the same name as {seen[name.lower()]!r}, because upper and lower case are not "
-            )
+        if first:
+            why = f"is the same name as {first!r}, because upper and lower case are not "
             raise NoSuchName(body, language, name, why + "distinguished")
+        seen[spoken.read(name)] = name
 
 
 def _comment(paragraphs: Iterable[str], language: Language) -> Iterator[str]:
@@ -200,6 +213,9 @@ def _comment(paragraphs: Iterable[str], language: Language) -> Iterator[str]:
         for line in textwrap.wrap(paragraph, 96, break_long_words=False, break_on_hyphens=False):
             yield f"{language.comment} {line}"
 
+
+_CALLED = "acos acosh asin asinh atan atan2 atanh cos cosh exp log sin sinh sqrt tan tanh"
+"""Functions that a formula may call, in the languages in which arguments would hide them."""
 
 _PLAIN: Mapping[str, object] = {"human": False}
 _HYPERBOLIC = {name: name for name in ("asinh", "acosh", "atanh")}
@@ -218,7 +234,7 @@ double {body}_{name}({arguments})
         "    const double {} = {};",
         "auto break case char const continue default do double else enum extern float for goto if "
         "inline int long register restrict return short signed sizeof static struct switch typedef "
-        "union unsigned void volatile while",
+        "union unsigned void volatile while cbrt fabs fmax fmin pow M_PI NAN " + _CALLED,
         argument="double {}",
         first="""\
 #include <math.h>
@@ -231,20 +247,19 @@ double {body}_{name}({arguments})
         "!",
         """\
 elemental function {name}({arguments}) result(value)
-    real(dp), intent(in) :: {arguments}
-    real(dp) :: {locals}
-    value = ieee_value(1.0_dp, ieee_quiet_nan)
+    double precision, intent(in) :: {arguments}
+    double precision :: {locals}
+    value = ieee_value(1.0d0, ieee_quiet_nan)
     if (.not. ({condition})) return
 {steps}    value = {value}
 end function {name}""",
         "    {} = {}",
-        "dp pi",
+        "abs ieee_quiet_nan ieee_value max min pi " + _CALLED,
         first="""\
 module {body}
 use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
 implicit none
-integer, parameter, private :: dp = kind(1.0d0)
-real(dp), parameter, private :: pi = 3.1415926535897932d0
+double precision, parameter, private :: pi = 3.1415926535897932d0
 contains""",
         last="end module {body}",
         ignores_case=True,
@@ -261,7 +276,7 @@ export function {name}({arguments}) {{
         "await break case catch class const continue debugger default delete do else enum export "
         "extends false finally for function if implements import in instanceof interface let new "
         "null package private protected public return static super switch this throw true try "
-        "typeof var void while with yield",
+        "typeof var void while with yield Math NaN",
     ),
     "julia": Language(
         JuliaCodePrinter({**_PLAIN, "contract": False, "user_functions": {"atan2": "atan"}}),
@@ -274,7 +289,7 @@ end""",
         "    {} = {}",
         "baremodule begin break catch const continue do else elseif end export false finally for "
         "function global if import let local macro module pi quote return struct true try using "
-        "while",
+        "while NaN abs max min " + _CALLED,
         first="module {body}",
         last="end",
     ),
@@ -289,7 +304,8 @@ function value = {name}({arguments})
 end""",
         "    {} = {};",
         "break case catch classdef continue else elseif end for function global if otherwise "
-        "parfor persistent pi return spmd switch try while",
+        "parfor persistent pi return spmd switch try while "
+        "NaN abs max min " + _CALLED,
         first="function functions = {body}()\n{handles}\nend",  # only this one can be called
     ),
 }

@@ -3,6 +3,7 @@
 import ctypes
 import json
 import math
+import re
 import shutil
 import subprocess
 from collections.abc import Callable
@@ -11,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from numpy.testing import assert_allclose
+from sympy import Abs, Max
 
 from derive import Geometry, derive_sheet, parameter, x
 from derive.codegen.languages import LANGUAGES, code_of
@@ -128,9 +130,43 @@ def test_integrals_are_named_and_left_out(language: str) -> None:
     assert "K_T_left" in text
 
 
+def names_in(text: str) -> set[str]:
+    """All names in the code of a Fortran file."""
+    return {*re.findall(r"\b[A-Za-z]\w*", re.sub("!.*", "", text))}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_no_names_in_fortran_differ_only_in_case(name: str) -> None:
+    names = names_in(code_of(of_library(name), "fortran"))
+    assert "dP" in names
+    assert len({name.lower() for name in names}) == len(names)
+
+
+def test_steps_in_fortran_avoid_the_names_of_parameters() -> None:
+    """The angle theta_1 and the logarithm L_1 of a kink make way for Theta_1 and l_1."""
+    R = parameter("Theta_1", "radius of the edges", unit="m")
+    b = parameter("l_1", "half-width of the flat", unit="m")
+    sheet = derive_sheet(Geometry("pad", g=Max(0, Abs(x) - b) ** 2 / (2 * R)))
+    names = names_in(code_of(sheet, "fortran"))
+    assert {"Theta_1", "l_1", "theta_2", "L_2"} <= names
+    assert len({name.lower() for name in names}) == len(names)
+
+
+def test_numbers_too_long_for_an_integer_are_reals_in_fortran() -> None:
+    """P = pi E* (a + c)**2/(16 R) with R/(2e12) in place of R."""
+    R = parameter("R", "relative radius of curvature", unit="m")
+    text = code_of(derive_sheet(Geometry("cylinder", g=10**12 * x**2 / R)), "fortran")
+    assert "value = 125000000000.0d0*pi*E_star*(a + c)**2/R" in text
+
+
 @pytest.mark.parametrize(
     ("language", "name", "why"),
-    [("c", "register", ""), ("javascript", "var", ""), ("fortran", "e_star", ".*'E_star'")],
+    [
+        *(("c", "register", ""), ("c", "fabs", ""), ("javascript", "var", "")),
+        *(("matlab", "sqrt", ""), ("fortran", "K_N_left", "")),
+        *(("fortran", "e_star", ".*'E_star'"), ("fortran", "F", ".*'f'")),
+        *(("fortran", "Sqrt", ".*'sqrt'"), ("fortran", "k_n_left", ".*'K_N_left'")),
+    ],
 )
 def test_a_name_that_a_language_has_no_room_for(language: str, name: str, why: str) -> None:
     R = parameter(name, "relative radius of curvature", unit="m")
