@@ -4,7 +4,7 @@ In:  a FormulaSheet.
 Out: source text in C, Fortran, JavaScript, Julia or MATLAB.
 
 Each closed formula of a generated module becomes a function of scalars, whose steps are the symbols
-that the sheet defines.  In Fortran it takes arrays as well.  It returns NaN where its
+that the sheet defines.  In Fortran and MATLAB it takes arrays as well.  It returns NaN where its
 conditions are not met.  The formula is printed as derived.  Unlike the formulas of the generated
 module, it is not rewritten for floating point, so it loses digits where its terms cancel, for
 example next to a kink.
@@ -298,15 +298,30 @@ end""",
         "%",
         """\
 function value = {name}({arguments})
-    value = NaN;
-    if ~({condition}), return, end
-{steps}    value = {value};
+    [valid, {arguments}] = valid_states({condition}, {arguments});
+    value = NaN(size(valid));
+{steps}    value(valid) = {value};
 end""",
         "    {} = {};",
         "break case catch classdef continue else elseif end for function global if otherwise "
         "parfor persistent pi return spmd switch try while "
-        "NaN abs max min " + _CALLED,
-        first="function functions = {body}()\n{handles}\nend",  # only this one can be called
+        "NaN abs max min size valid valid_states " + _CALLED,
+        first="""\
+% Returns handles of the functions below, because a file offers only its first function to others.
+function functions = {body}()
+{handles}
+end
+
+% Expands all arguments to a common size, and keeps of each the elements of the valid states.
+function [valid, varargout] = valid_states(valid, varargin)
+    for k = 1:numel(varargin)
+        valid = valid & true(size(varargin{{k}}));
+    end
+    for k = 1:numel(varargin)
+        expanded = varargin{{k}} + zeros(size(valid));
+        varargout{{k}} = expanded(valid);
+    end
+end""",
     ),
 }
 """The languages of `derive show NAME --code LANGUAGE`."""

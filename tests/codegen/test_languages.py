@@ -105,8 +105,9 @@ HERTZ_LOAD = {
     ],
     "matlab": [
         "function value = load(a, c, E_star, R)",
-        "if ~(E_star > 0 & R > 0 & a + c > 0), return, end",
-        "value = pi*E_star.*(a + c).^2./(16*R);",
+        "[valid, a, c, E_star, R] = valid_states(E_star > 0 & R > 0 & a + c > 0, a, c, E_star, R);",
+        "value = NaN(size(valid));",
+        "value(valid) = pi*E_star.*(a + c).^2./(16*R);",
     ],
 }
 
@@ -152,6 +153,16 @@ def test_steps_in_fortran_avoid_the_names_of_parameters() -> None:
     assert len({name.lower() for name in names}) == len(names)
 
 
+@pytest.mark.parametrize("name", BODIES)
+def test_matlab_decides_for_each_element(name: str) -> None:
+    """One `if` would decide for all states of an array."""
+    code = re.sub("%.*", "", code_of(of_library(name), "matlab"))
+    assert not re.search(r"\b(if|while|switch|return)\b|&&|\|\|", code)
+    functions = code.count("@")
+    assert code.count("value = NaN(size(valid));") == functions > 0
+    assert code.count("value(valid) = ") == functions
+
+
 def test_numbers_too_long_for_an_integer_are_reals_in_fortran() -> None:
     """P = pi E* (a + c)**2/(16 R) with R/(2e12) in place of R."""
     R = parameter("R", "relative radius of curvature", unit="m")
@@ -163,7 +174,7 @@ def test_numbers_too_long_for_an_integer_are_reals_in_fortran() -> None:
     ("language", "name", "why"),
     [
         *(("c", "register", ""), ("c", "fabs", ""), ("javascript", "var", "")),
-        *(("matlab", "sqrt", ""), ("fortran", "K_N_left", "")),
+        *(("matlab", "valid", ""), ("fortran", "K_N_left", "")),
         *(("fortran", "e_star", ".*'E_star'"), ("fortran", "F", ".*'f'")),
         *(("fortran", "Sqrt", ".*'sqrt'"), ("fortran", "k_n_left", ".*'K_N_left'")),
     ],
