@@ -7,7 +7,7 @@ Each closed formula of a generated module becomes a function of scalars, whose s
 that the sheet defines.  In Fortran and MATLAB it takes arrays as well.  It returns NaN where its
 conditions are not met.  The formula is printed as derived.  Unlike the formulas of the generated
 module, it is not rewritten for floating point, so it loses digits where its terms cancel, for
-example next to a kink.
+example next to a kink, and can be NaN at a kink.
 """
 
 import shlex
@@ -68,6 +68,7 @@ class Language:
     function      one function of a body
     step          the line that computes one symbol
     argument      one argument of a function
+    inside        a value that is replaced by zero outside the contact
     first, last   the first and the last lines of a file
     keywords      names that an argument cannot have
     ignores_case  whether names that differ only in case are the same
@@ -79,6 +80,7 @@ class Language:
     step: str
     keywords: str
     argument: str = "{}"
+    inside: str = "x > -a && x < c ? {} : 0.0"
     first: str = ""
     last: str = ""
     ignores_case: bool = False
@@ -138,7 +140,7 @@ def _heading(sheet: FormulaSheet, language: str, given: str, lacking: list[str])
     yield f"Closed formulas, printed by `derive show {shlex.quote(given)} --code {language}`."
     yield (
         "The formulas are printed as derived: they lose digits where terms cancel, for example "
-        "next to a kink.  They return NaN if their conditions are not met."
+        "next to a kink, and can be NaN at one.  They return NaN if their conditions are not met."
     )
     for q in sheet.geometry.parameters:
         yield f"{q.name}: {q.meaning} [{q.unit}]"
@@ -170,7 +172,7 @@ def _function(
         locals=" &\n        ".join(textwrap.wrap(", ".join([_VALUE, *values]), 96)),
         condition=print_(condition),
         steps="".join(language.step.format(*step) + "\n" for step in values.items()),
-        value=print_(program.outputs[name]),
+        value=(language.inside if x in symbols else "{}").format(print_(program.outputs[name])),
     )
     return "\n".join([*_comment([f"{formula.head}, {words}"], language), text])
 
@@ -254,7 +256,7 @@ elemental function {name}({arguments}) result(value)
 {steps}    value = {value}
 end function {name}""",
         "    {} = {}",
-        "abs ieee_quiet_nan ieee_value max min pi " + _CALLED,
+        "abs ieee_quiet_nan ieee_value max merge min pi " + _CALLED,
         first="""\
 module {body}
 use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
@@ -262,6 +264,7 @@ implicit none
 double precision, parameter, private :: pi = 3.1415926535897932d0
 contains""",
         last="end module {body}",
+        inside="merge({}, 0.0d0, x > -a .and. x < c)",
         ignores_case=True,
     ),
     "javascript": Language(
@@ -305,7 +308,7 @@ end""",
         "    {} = {};",
         "break case catch classdef continue else elseif end for function global if otherwise "
         "parfor persistent pi return spmd switch try while "
-        "NaN abs max min size valid valid_states " + _CALLED,
+        "NaN abs max min size valid valid_states zero_unless " + _CALLED,
         first="""\
 % Returns handles of the functions below, because a file offers only its first function to others.
 function functions = {body}()
@@ -321,7 +324,13 @@ function [valid, varargout] = valid_states(valid, varargin)
         expanded = varargin{{k}} + zeros(size(valid));
         varargout{{k}} = expanded(valid);
     end
+end
+
+% The value where the condition is true, and zero elsewhere.
+function value = zero_unless(condition, value)
+    value(~condition) = 0;
 end""",
+        inside="zero_unless(x > -a & x < c, {})",
     ),
 }
 """The languages of `derive show NAME --code LANGUAGE`."""

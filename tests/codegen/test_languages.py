@@ -35,9 +35,10 @@ def calls(name: str) -> list[tuple[str, tuple[float, ...], float]]:
     found = [("tilt", (A, C, *own.values()), module.tilt(A, C, **own))]
     for function in ("load", "moment"):
         found.append((function, (A, C, *law), getattr(module, function)(A, C, **material)))
-    for place in (-0.9e-3, 0.1e-3, 0.5e-3, 2e-3):
-        value = module.pressure(place, A, C, **material)
-        found.append(("pressure", (place, A, C, *law), value))
+    small = (A / 4, C / 4)  # within the kinks of the rounded wedge
+    for x_, a_, c_ in (*((x_, A, C) for x_ in (-0.9e-3, 0.1e-3, 0.5e-3, 2e-3)), (2e-3, *small)):
+        value = module.pressure(x_, a_, c_, **material)
+        found.append(("pressure", (x_, a_, c_, *law), value))
     for function in ("K_N", "L_N", "K_T", "L_T"):
         given = material if function.endswith("N") else LOADS
         edges = getattr(module, function)(A, C, **given)
