@@ -25,6 +25,7 @@ from sympy import (
     Integral,
     Max,
     Min,
+    NumberSymbol,
     Piecewise,
     S,
     Symbol,
@@ -187,10 +188,9 @@ def _renamed(program: Program, taken: list[str], language: Language) -> Program:
 
 def _printing(language: Language) -> Callable[[Basic], str]:
     def printed(expr: Basic) -> str:
-        constants, unknown, text = language.printer.doprint(expr)
+        digits = {number: number.n(17) for number in expr.atoms(NumberSymbol) - {S.Pi}}
+        _, unknown, text = language.printer.doprint(expr.xreplace(digits))
         assert not unknown, f"no code is known for {unknown}"
-        for constant, digits in constants:
-            text = text if constant == S.Pi else text.replace(str(constant), digits)
         return str(text)
 
     return printed

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from numpy.testing import assert_allclose
-from sympy import Abs, Max
+from sympy import Abs, Max, exp
 
 from derive import Geometry, derive_sheet, parameter, x
 from derive.codegen.languages import LANGUAGES, code_of
@@ -162,6 +162,13 @@ def test_matlab_decides_for_each_element(name: str) -> None:
     functions = code.count("@")
     assert code.count("value = NaN(size(valid));") == functions > 0
     assert code.count("value(valid) = ") == functions
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_number_e_is_not_the_modulus(language: str) -> None:
+    R = parameter("R", "relative radius of curvature", unit="m")
+    sheet = derive_sheet(Geometry("cylinder", g=exp(1) * x**2 / (2 * R)))
+    assert not re.search(r"\d_star", code_of(sheet, language))
 
 
 def test_numbers_too_long_for_an_integer_are_reals_in_fortran() -> None:
