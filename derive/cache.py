@@ -71,7 +71,7 @@ def program_digest(program: Path = PROGRAM) -> str:
     bodies = program / "geometries"
     files = sorted(
         (path.relative_to(program).as_posix(), _content(path))
-        for path in program.rglob("*.py")
+        for path in (*program.rglob("*.py"), *program.rglob("*.txt"))
         if bodies not in path.parents
     )
     return _digest([files, versions()])

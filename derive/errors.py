@@ -441,6 +441,21 @@ class InstalledPackage(UserError):
 
 
 @dataclass
+class OtherRuntime(UserError):
+    """Python found a package `generated` whose runtime is of another version than this program."""
+
+    given: str
+
+    @property
+    def message(self) -> str:
+        """Say which folder was found, and what to do."""
+        return (
+            f"the package `generated` in {self.given} is of another version than `derive`: run the "
+            "command in another folder, or rename that package"
+        )
+
+
+@dataclass
 class MissingLibrary(UserError):
     """A library that only part of the package needs is not installed."""
 

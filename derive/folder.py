@@ -37,27 +37,28 @@ Refusal = Callable[[str, str], Exception]
 
 
 def replace_folder(
-    files: Mapping[str, str], folder: Path, refusal: Refusal, edited: bool = True
+    files: Mapping[str, str], folder: Path, refusal: Refusal, kept: str = ""
 ) -> None:
     """Replace a directory by these files, of which the first is their list.
 
-    edited: whether a written file that was changed later belongs to the user.
+    kept: an entry that stays as it is, in a directory whose files are under version control; else
+        a written file that was changed later belongs to the user.
 
     Raises `refusal` if the directory contains a file that belongs to the user, or cannot be
     written.
     """
-    demand_replaceable(folder, refusal, edited)
+    demand_replaceable(folder, refusal, kept)
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     except OSError as error:
         raise refusal(str(folder), f"cannot be written ({error.strerror})") from error
     with in_use(workshop):
-        _fill_and_exchange(files, folder, workshop, refusal)
-    remove_leftovers(folder)
+        _fill_and_exchange(files, folder, workshop, refusal, kept)
+    remove_leftovers(folder, kept)
 
 
-def demand_replaceable(folder: Path, refusal: Refusal, edited: bool = True) -> None:
+def demand_replaceable(folder: Path, refusal: Refusal, kept: str = "") -> None:
     """Raise `refusal` unless `folder` can be created, is empty, or holds only files of a list."""
     try:
         demand_writable(folder)
@@ -67,18 +68,20 @@ def demand_replaceable(folder: Path, refusal: Refusal, edited: bool = True) -> N
         return
     if folder.is_symlink() or not folder.is_dir():
         raise refusal(str(folder), "is not a directory")
-    if stranger := not_written(folder, edited):
+    if stranger := not_written(folder, edited=not kept, kept=kept):
         raise refusal(str(folder), f"contains {stranger}")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
         raise refusal(str(folder), "is the current directory or contains it")
 
 
 def _fill_and_exchange(
-    files: Mapping[str, str], folder: Path, workshop: Path, refusal: Refusal
+    files: Mapping[str, str], folder: Path, workshop: Path, refusal: Refusal, kept: str
 ) -> None:
     fresh, old = workshop / _FRESH, workshop / _PREVIOUS
     try:
         fresh.mkdir()
+        if kept:
+            shutil.copytree(folder / kept, fresh / kept)
         for name, text in files.items():
             (fresh / name).parent.mkdir(parents=True, exist_ok=True)
             (fresh / name).write_bytes(text.encode())
@@ -149,7 +152,7 @@ def in_use(workshop: Path) -> Iterator[bool]:
         os.close(descriptor)
 
 
-def remove_leftovers(folder: Path) -> None:
+def remove_leftovers(folder: Path, kept: str = "") -> None:
     """Remove the hidden directories that killed runs have left next to a directory.
 
     Only those with a name that `replace_folder` gives are removed, and only if they hold nothing
@@ -159,15 +162,15 @@ def remove_leftovers(folder: Path) -> None:
     with suppress(OSError):
         for path in [p for p in folder.parent.iterdir() if named.fullmatch(p.name)]:
             with suppress(OSError), in_use(path) as unused:
-                if unused and _is_leftover(path):
+                if unused and _is_leftover(path, kept):
                     shutil.rmtree(path, ignore_errors=True)
 
 
-def _is_leftover(path: Path) -> bool:
+def _is_leftover(path: Path, kept: str) -> bool:
     if path.is_symlink() or not path.is_dir() or time.time() - path.stat().st_mtime < _AGE:
         return False
     inside = list(path.iterdir())
     if any(p.is_symlink() or not p.is_dir() for p in inside):
         return False
     named = {p.name for p in inside} <= {_FRESH, _PREVIOUS}
-    return named and not any(not_written(p, edited=False) for p in inside)
+    return named and not any(not_written(p, edited=False, kept=kept) for p in inside)

@@ -26,13 +26,14 @@ def with_manifest(files: Mapping[str, str]) -> dict[str, str]:
     return {MANIFEST: "\n".join([*lines, ""]), **files}
 
 
-def not_written(folder: Path, edited: bool = True) -> str:
+def not_written(folder: Path, edited: bool = True, kept: str = "") -> str:
     """Name the first entry that was not written in this form, and say why; "" if there is none.
 
     edited: whether that includes files that were changed later.
+    kept: an entry that is left alone.
     """
     listed = _listed(folder / MANIFEST)
-    for path in entries(folder, listed):
+    for path in entries(folder, listed, kept):
         name = path.relative_to(folder).as_posix()
         if path.is_file() and listed and name == MANIFEST:
             continue
@@ -44,13 +45,14 @@ def not_written(folder: Path, edited: bool = True) -> str:
     return ""
 
 
-def entries(folder: Path, names: Iterable[str]) -> list[Path]:
-    """All entries of a directory, in order, except compiled files.
+def entries(folder: Path, names: Iterable[str], kept: str = "") -> list[Path]:
+    """All entries of a directory, in order, except compiled files and the entry `kept`.
 
     A folder is entered if it is to hold one of the named files; any other counts as one entry.
     """
     inner = {parent.as_posix() for name in names for parent in Path(name).parents}
-    return _entries(folder, folder, inner)
+    found = _entries(folder, folder, inner)
+    return [path for path in found if path.relative_to(folder).parts[0] != kept]
 
 
 def _entries(folder: Path, root: Path, inner: set[str]) -> list[Path]:

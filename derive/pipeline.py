@@ -31,6 +31,7 @@ from derive.body import Body, by_form
 from derive.cache import key_of, program_as_loaded, program_digest, users_cache
 from derive.codegen.publish import (
     FULL_STICK,
+    RUNTIME,
     Difference,
     differences,
     modules_in,
@@ -229,12 +230,17 @@ class Order:
         if installed and self.writes:
             raise InstalledPackage(str(GENERATED))
         if self.writes:
-            demand_replaceable(GENERATED, BadOutput, edited=False)
+            demand_replaceable(GENERATED, BadOutput, self.kept)
 
     @property
     def target(self) -> Path:
         """The directory to be written."""
         return self.folder or GENERATED
+
+    @property
+    def kept(self) -> str:
+        """The folder of `generated` that is hand-written and left alone; "" in other packages."""
+        return RUNTIME if self.folder is None else ""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -252,18 +258,18 @@ class Order:
                 raise TwoOfOneName(body.name)
             made |= {body.name: body.text, FULL_STICK: body.stuck}
         kept = modules_in(GENERATED) if self.folder is None and self.sources else {}
-        return package_files(kept | made)
+        return package_files(kept | made, with_runtime=not self.kept)
 
     def write(self, bodies: Iterable[Body]) -> list[Difference]:
         """Write the package; return how the directory differed from it before."""
         files = self.files(bodies)
-        found = differences(files, self.target)
+        found = differences(files, self.target, self.kept)
         if found:
-            publish(files, self.target, edited=self.folder is not None)  # git keeps our own package
+            publish(files, self.target, self.kept)
         else:
-            remove_leftovers(self.target)
+            remove_leftovers(self.target, self.kept)
         return found
 
     def check(self, bodies: Iterable[Body]) -> list[Difference]:
         """The differences between the directory and what would be written."""
-        return differences(self.files(bodies), self.target)
+        return differences(self.files(bodies), self.target, self.kept)

@@ -88,18 +88,8 @@ _ALSO_USED = (
     # names used by SymPy
     *("E", "I", "N", "O", "oo", "nan", "inf"),
     # names used by the generated modules
-    *("np", "Any", "LEAST", "MOST", "TINY", "elementwise", "where", "kink_logarithm"),
-    *(
-        "Asked",
-        "Body",
-        "Example",
-        "Parameter",
-        "Curve",
-        "integrated",
-        "cycle",
-        "by_position",
-        "shared",
-    ),
+    *("np", "Any", "LEAST", "MOST", "TINY", "evaluated", "where", "kink_logarithm"),
+    *("Body", "Curve", "cycle", "shared", "Values"),
     *(
         "segment",
         "involute",
@@ -112,8 +102,8 @@ _ALSO_USED = (
         "root_ratio",
     ),
     *("r_left", "r_right", "k_left", "k_right"),
-    *("second_term", "third_term", "curve_of", "excess", "polynomial", "kernel"),
-    *("Array", "exists", "first", "second", "order", "mixed", "own", "asked", "piece", "side"),
+    *("second_term", "curve_of", "excess", "polynomial", "kernel"),
+    *("Array", "exists", "first", "second", "order", "mixed", "own", "piece", "side"),
     *("contact", "contact_at_tilt", "tilt", "load", "moment", "pressure", "pieces"),
     *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "why", "tension_threshold", "slip_zones"),
     *("Contact", "Edges", "StickZone", "Threshold", "Regime", "March"),

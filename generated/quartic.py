@@ -3,19 +3,21 @@
 
 g(x) = x**4/(4*L**3), from derive/geometries/quartic.py.
 
-Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and the contact width is between 1e-75 and 1e75 m.
+Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
+Results are NaN unless the constants of material and geometry are positive and the contact width is
+between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
+number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
+do not broadcast.
 """
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
-from .runtime.arrays import elementwise
-from .runtime.body import Body, Example
-from .runtime.elementary import LEAST, MOST, where
+from .runtime.arrays import evaluated
+from .runtime.elementary import LEAST, MOST
 from .runtime.history import public
-from .runtime.shared import by_position
+from .runtime.kernels import Body, shared, where
 from .runtime.types import (
     Array,
     Contact,
@@ -26,8 +28,8 @@ from .runtime.types import (
     SteadyCycle,
     StickZone,
     Threshold,
+    Values,
 )
-from .runtime.words import Parameter
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
@@ -36,17 +38,28 @@ __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cy
 __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
-_OWN = (Parameter("L", "distance from the apex at which the flanks have slope one", "m"),)
+@shared
+def _tilt(a: Array, c: Array, L: Array) -> Array:
+    """Tilt at which the contact is [-a, c]."""
+    alpha = (a - c) * (5 * a**2 + 2 * a * c + 5 * c**2) / (16 * (L * L**2))
+    h = a + c  # contact width [m]
+    exists = (h > LEAST) & (h < MOST)
+    return where(exists, alpha, np.nan)
 
 
-@elementwise(*_OWN)
-def tilt(a: Array, c: Array, *, L: Array) -> Array:
+def tilt(a: Values, c: Values, *, L: Values) -> Array:
     """Tilt at which the contact is [-a, c].
 
         alpha = (a - c)*(5*a**2 + 2*a*c + 5*c**2)/(16*L**3)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
+
+    Parameters
+    ----------
+    a : left edge of the contact at x = -a [m]
+    c : right edge of the contact at x = c [m]
+    L : distance from the apex at which the flanks have slope one [m]
 
     Returns
     -------
@@ -58,20 +71,32 @@ def tilt(a: Array, c: Array, *, L: Array) -> Array:
     >>> f"{tilt(1.5, 1.0, L=1.0):.6g}"
     '0.601562'
     """
-    alpha = (a - c) * (5 * a**2 + 2 * a * c + 5 * c**2) / (16 * (L * L**2))
+    return evaluated(_tilt, {"a": a, "c": c}, {"L": L})
+
+
+@shared
+def _load(a: Array, c: Array, E_star: Array, L: Array) -> Array:
+    """Normal load that makes the contact [-a, c]."""
     h = a + c  # contact width [m]
+    P = (3 * np.pi * E_star / (256 * (L * L**2))) * h**2 * (5 * a**2 + 5 * c**2 - 6 * a * c)
     exists = (h > LEAST) & (h < MOST)
-    return where(exists, alpha, np.nan)
+    return where(exists, P, np.nan)
 
 
-@elementwise(*_OWN)
-def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
+def load(a: Values, c: Values, *, E_star: Values, L: Values) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = 3*pi*E_star*(a + c)**2*(5*a**2 - 6*a*c + 5*c**2)/(256*L**3)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, P = (E*/2) int g'' w ds; int p dx by quadrature.
+
+    Parameters
+    ----------
+    a : left edge of the contact at x = -a [m]
+    c : right edge of the contact at x = c [m]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
@@ -83,31 +108,12 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     >>> f"{load(1.5, 1.0, E_star=1.0, L=1.0):.6g}"
     '1.6682'
     """
-    h = a + c  # contact width [m]
-    P = (3 * np.pi * E_star / (256 * (L * L**2))) * h**2 * (5 * a**2 + 5 * c**2 - 6 * a * c)
-    exists = (h > LEAST) & (h < MOST)
-    return where(exists, P, np.nan)
+    return evaluated(_load, {"a": a, "c": c}, {"E_star": E_star, "L": L})
 
 
-@elementwise(*_OWN)
-def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
-    """Moment that makes the contact [-a, c].
-
-        M = 3*pi*E_star*(a - c)*(a + c)**2*(3*a**2 - 2*a*c + 3*c**2)/(256*L**3)
-
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.
-
-    Returns
-    -------
-    M : ndarray
-        [N]; NaN unless a + c > 0.
-
-    Examples
-    --------
-    >>> f"{moment(1.5, 1.0, E_star=1.0, L=1.0):.6g}"
-    '0.776578'
-    """
+@shared
+def _moment(a: Array, c: Array, E_star: Array, L: Array) -> Array:
+    """Moment that makes the contact [-a, c]."""
     h = a + c  # contact width [m]
     M = (
         (3 * np.pi * E_star / (256 * (L * L**2)))
@@ -119,26 +125,37 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     return where(exists, M, np.nan)
 
 
-@elementwise(*_OWN)
-def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
-    """Contact pressure at x; zero outside [-a, c].
+def moment(a: Values, c: Values, *, E_star: Values, L: Values) -> Array:
+    """Moment that makes the contact [-a, c].
 
-        p = E_star*sqrt((a + x)*(c - x))*(3*a**2 - 2*a*c - 4*a*x + 3*c**2 + 4*c*x +
-            8*x**2)/(16*L**3)
+        M = 3*pi*E_star*(a - c)*(a + c)**2*(3*a**2 - 2*a*c + 3*c**2)/(256*L**3)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
-    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.
+
+    Parameters
+    ----------
+    a : left edge of the contact at x = -a [m]
+    c : right edge of the contact at x = c [m]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
-    p : ndarray
-        [Pa]; NaN unless a + c > 0.
+    M : ndarray
+        [N]; NaN unless a + c > 0.
 
     Examples
     --------
-    >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0):.6g}"
-    '0.484375'
+    >>> f"{moment(1.5, 1.0, E_star=1.0, L=1.0):.6g}"
+    '0.776578'
     """
+    return evaluated(_moment, {"a": a, "c": c}, {"E_star": E_star, "L": L})
+
+
+@shared
+def _pressure(x: Array, a: Array, c: Array, E_star: Array, L: Array) -> Array:
+    """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
     p = (
@@ -151,14 +168,61 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     return where(exists, p, np.nan)
 
 
-@elementwise(*_OWN)
-def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
+def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values) -> Array:
+    """Contact pressure at x; zero outside [-a, c].
+
+        p = E_star*sqrt((a + x)*(c - x))*(3*a**2 - 2*a*c - 4*a*x + 3*c**2 + 4*c*x +
+            8*x**2)/(16*L**3)
+
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
+
+    Parameters
+    ----------
+    x : position along the interface, positive to the right [m]
+    a : left edge of the contact at x = -a [m]
+    c : right edge of the contact at x = c [m]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
+
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0.
+
+    Examples
+    --------
+    >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0):.6g}"
+    '0.484375'
+    """
+    return evaluated(_pressure, {"x": x, "a": a, "c": c}, {"E_star": E_star, "L": L})
+
+
+@shared
+def _K_N(a: Array, c: Array, E_star: Array, L: Array) -> Edges:
+    """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
+    h = a + c  # contact width [m]
+    scale = (3 * E_star / (16 * (L * L**2))) * np.sqrt(h)
+    K_N_left = scale * (5 * a**2 + c**2 - 2 * a * c)
+    K_N_right = scale * (a**2 + 5 * c**2 - 2 * a * c)
+    exists = (h > LEAST) & (h < MOST)
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
+
+
+def K_N(a: Values, c: Values, *, E_star: Values, L: Values) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
         K_N_left = 3*E_star*sqrt(a + c)*(5*a**2 - 2*a*c + c**2)/(16*L**3)
         K_N_right = 3*E_star*sqrt(a + c)*(a**2 - 2*a*c + 5*c**2)/(16*L**3)
 
     Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+
+    Parameters
+    ----------
+    a : left edge of the contact at x = -a [m]
+    c : right edge of the contact at x = c [m]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
@@ -170,16 +234,21 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0)]
     ['2.74229', '1.25997']
     """
+    return evaluated(_K_N, {"a": a, "c": c}, {"E_star": E_star, "L": L}, Edges)
+
+
+@shared
+def _L_N(a: Array, c: Array, E_star: Array, L: Array) -> Edges:
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (3 * E_star / (16 * (L * L**2))) * np.sqrt(h)
-    K_N_left = scale * (5 * a**2 + c**2 - 2 * a * c)
-    K_N_right = scale * (a**2 + 5 * c**2 - 2 * a * c)
+    scale = (E_star / (L * L**2)) / np.sqrt(h)
+    L_N_left = scale * (5 * c**2 / 32 - 55 * a**2 / 32 - 13 * a * c / 16)
+    L_N_right = scale * (5 * a**2 / 32 - 13 * a * c / 16 - 55 * c**2 / 32)
     exists = (h > LEAST) & (h < MOST)
-    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
-@elementwise(*_OWN)
-def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
+def L_N(a: Values, c: Values, *, E_star: Values, L: Values) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = -E_star*(55*a**2 + 26*a*c - 5*c**2)/(32*L**3*sqrt(a + c))
@@ -187,6 +256,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
 
     Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
     flat punches as its edge moves; p - K_N sqrt(s) close to the edge.
+
+    Parameters
+    ----------
+    a : left edge of the contact at x = -a [m]
+    c : right edge of the contact at x = c [m]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
@@ -198,42 +274,28 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, L=1.0)]
     ['-3.11781', '-1.63549']
     """
-    h = a + c  # contact width [m]
-    scale = (E_star / (L * L**2)) / np.sqrt(h)
-    L_N_left = scale * (5 * c**2 / 32 - 55 * a**2 / 32 - 13 * a * c / 16)
-    L_N_right = scale * (5 * a**2 / 32 - 13 * a * c / 16 - 55 * c**2 / 32)
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
+    return evaluated(_L_N, {"a": a, "c": c}, {"E_star": E_star, "L": L}, Edges)
 
 
-_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
-_p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-
-
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
+def _law_pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """Pressure at x for E* = 1."""
-    return _p(x, a, c, 1.0, own[0])
+    return _pressure(x, a, c, 1.0, own[0])
 
 
-def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
+def _law_state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0])
     load, moment = _load(a, c, 1.0, own[0]), _moment(a, c, 1.0, own[0])
     return load, moment, _tilt(a, c, own[0]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
-    """L_N and the coefficients of s**(5/2) for E* = 1."""
-    L = own[0]
-    second = _L_N(a, c, 1.0, L)
-    h = a + c  # contact width [m]
-    scale = (3 / (128 * (L * L**2))) / (h * np.sqrt(h))
-    third_left = scale * (43 * a**2 + 66 * a * c + 15 * c**2)
-    third_right = scale * (15 * a**2 + 66 * a * c + 43 * c**2)
-    return second.left, second.right, third_left, third_right
+def _law_series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
+    """L_N for E* = 1."""
+    left, right = _L_N(a, c, 1.0, own[0])
+    return left, right
 
 
-def _slope(x: Array, own: Array) -> tuple[Array, ...]:
+def _law_slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     L = own[0]
     slope = (x * x**2) / (L * L**2)
@@ -241,34 +303,609 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     return slope, curvature
 
 
-def _breaks(own: Array) -> Array:
+def _law_breaks(own: Array) -> Array:
     """Points at which the formula of the curve changes."""
     return np.empty(0)
 
 
-_BODY = Body(
-    dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    "derive/geometries/quartic.py",
-    Example(
-        "E_star=1.0, L=1.0",
-        (1.5, 1.0),
-        (1.6682041068256348, 0.7765777738671058, 0.6015625),
-        (2.7422876584272666, 1.2599700052233387),
-    ),
-    *_OWN,
-)
+_BODY = Body(__name__, _law_pressure, _law_state, _law_slope, _law_series, _law_breaks)
 
-contact = _BODY.bound(cycle.contact)
-contact_at_tilt = _BODY.bound(cycle.contact_at_tilt)
-stick_zone = _BODY.bound(cycle.stick_zone)
-tension_threshold = _BODY.bound(cycle.tension_threshold)
-closing_tension = _BODY.bound(cycle.closing_tension)
-slip_zones = _BODY.bound(cycle.slip_zones)
-slip_error = _BODY.bound(cycle.slip_error)
-shear_change = _BODY.bound(cycle.shear_change)
-shear = _BODY.bound(cycle.shear)
-slip_range = _BODY.bound(cycle.slip_range)
-march = _BODY.bound(cycle.march)
-why = _BODY.bound(cycle.why)
-history = _BODY.bound(public.history)
-steady_cycle = _BODY.bound(public.steady_cycle)
+
+def contact(P: Values, M: Values = 0.0, *, E_star: Values, L: Values) -> Contact:
+    """Contact and tilt under the load P and the moment M.
+
+        P = load(a, c), M = moment(a, c), alpha = tilt(a, c)
+
+    The first two equations are solved for a and c by Newton's method.
+
+    Parameters
+    ----------
+    P : normal load per unit depth [N/m]
+    M : moment per unit depth, M = -int p x dx [N]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
+
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha [rad].  NaN unless P > 0 and a contact exists.  Derivatives follow from
+        K_N: when an edge moves, the pressure changes by that of a flat punch.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> a, c, alpha = contact(1.6682, 0.776578, **law)
+    >>> f"{load(a, c, **law):.6g}, {moment(a, c, **law):.6g}"
+    '1.6682, 0.776578'
+    """
+    return cycle.contact(_BODY, {"L": L}, P, M, E_star)
+
+
+def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, L: Values) -> Contact:
+    """Contact under the load P at the tilt alpha.
+
+        P = load(a, c), alpha = tilt(a, c)
+
+    The equations are solved for a and c by Newton's method.
+
+    Parameters
+    ----------
+    P : normal load per unit depth [N/m]
+    alpha : tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
+
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha as given.  NaN unless P > 0 and a contact exists.  Derivatives follow
+        from K_N: when an edge moves, the pressure changes by that of a flat punch.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> a, c, alpha = contact_at_tilt(1.6682, 0.601562, **law)
+    >>> f"{load(a, c, **law):.6g}"
+    '1.6682'
+    """
+    return cycle.contact_at_tilt(_BODY, {"L": L}, P, alpha, E_star)
+
+
+def stick_zone(
+    first: Contact,
+    second: Contact,
+    dQ: Values,
+    dsigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+    mixed: bool = False,
+) -> StickZone:
+    """The zone [-m, n] that sticks throughout a steady cycle, and how the cycle slips.
+
+        moderate tension: load(m, n) = (P_1 + P_2)/2 - dQ/(2 f),
+            tilt(m, n) = (alpha_1 + alpha_2)/2 - dsigma/(4 f E*)
+        large tension: int r sqrt((xi + m)/(xi - n)) dxi = dQ - pi dsigma (m + n)/8,
+            int r sqrt((xi - n)/(xi + m)) dxi = dQ + pi dsigma (m + n)/8 over the slip zones,
+            r = +/- f (p_1 + p_2), the upper sign on the left if dsigma > 0
+
+    Parameters
+    ----------
+    first : Contact at the start of the half-cycle that raises the shear load
+    second : Contact at its end; equal to first for constant normal loads
+    dQ : change in the shear load over the half-cycle that raises it [N/m]
+    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+    mixed : whether to also solve cycles in which slip reverses, to 1e-7 of the contact width
+
+    Returns
+    -------
+    StickZone
+        m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
+        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
+        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        given only under constant normal loads, and only if forward slip eventually covers the
+        zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
+        loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
+        sticks if the mean shear load is too high; steady_cycle checks this, and march does unless
+        slip reverses.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> zone = stick_zone(here, here, 0.21, 0.0, f=0.5, **law)
+    >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
+    ('MODERATE', '1.4582')
+    """
+    return cycle.stick_zone(_BODY, {"L": L}, first, second, dQ, dsigma, f, E_star, mixed)
+
+
+def why(
+    first: Contact,
+    second: Contact,
+    dQ: Values,
+    dsigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+) -> str:
+    """Why a cycle has no stick zone, or what its regime means, in words.
+
+    Parameters
+    ----------
+    first, second, dQ, dsigma : as in stick_zone, of one cycle
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+
+    Returns
+    -------
+    str
+        The meaning of the regime; where it is NONE, everything that is wrong with the numbers.
+
+    Raises
+    ------
+    ValueError
+        If an argument is an array.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> why(here, here, -1.0, 0.0, f=0.5, **law)
+    'dQ = -1 is negative: pass the half-cycle that raises the shear load'
+    """
+    return cycle.why(_BODY, {"L": L}, first, second, dQ, dsigma, f, E_star, "")
+
+
+def tension_threshold(
+    first: Contact, second: Contact, dQ: Values, *, f: Values, E_star: Values, L: Values
+) -> Threshold:
+    """The two changes in bulk tension between which tension is moderate and the solution is exact.
+
+        constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
+
+    Parameters
+    ----------
+    first, second : Contact at the start and at the end of the half-cycle that raises Q
+    dQ : change in the shear load over the half-cycle that raises it [N/m]
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+
+    Returns
+    -------
+    Threshold
+        lower [Pa], upper [Pa].  NaN unless such a range exists.  Also NaN where dQ < 0, and where
+        dQ >= f (P_1 + P_2), which means sliding.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> limits = tension_threshold(here, here, 0.21, f=0.5, **law)
+    >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
+    '0.213904'
+    """
+    return cycle.tension_threshold(_BODY, {"L": L}, first, second, dQ, f, E_star)
+
+
+def closing_tension(
+    first: Contact, second: Contact, dQ: Values, *, f: Values, E_star: Values, L: Values
+) -> Threshold:
+    """Changes in bulk tension at which the moderate solution closes one slip zone.
+
+        upper: load(m, c) = (P_1 + P_2)/2 - dQ/(2 f),
+            dsigma = 4 f E* ((alpha_1 + alpha_2)/2 - tilt(m, c)),
+            where c is the right edge of the smaller contact
+        lower: the same with load(a, n) and tilt(a, n),
+            where a is the left edge of the smaller contact
+
+    Parameters
+    ----------
+    first, second : Contact at the start and at the end of the half-cycle that raises Q
+    dQ : change in the shear load over the half-cycle that raises it [N/m]
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+
+    Returns
+    -------
+    Threshold
+        lower [Pa], upper [Pa].  Slip reverses before the zone closes; see tension_threshold.
+        NaN unless the reduced load is positive and the stick zone fits into the smaller contact.
+        Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> lower, upper = closing_tension(here, here, 0.21, f=0.5, **law)
+    >>> bool(lower < 0 < upper)
+    True
+    """
+    return cycle.closing_tension(_BODY, {"L": L}, first, second, dQ, f, E_star)
+
+
+def slip_zones(
+    a: Values,
+    c: Values,
+    dQ: Values,
+    dsigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+    da: Values = 0.0,
+    dc: Values = 0.0,
+    order: int = 1,
+) -> Edges:
+    """Lengths of the slip zones, by series in these lengths.
+
+        order 1: d = |K_T|/(f K_N) + da/2, and dc/2 at the right edge
+
+    Order 2 uses the conditions of stick_zone with the first two terms of the pressure at each edge
+    of both contacts, truncated after d**2 and then solved without further approximation, provided
+    that part of the contact sticks to the first order.
+
+    Parameters
+    ----------
+    a, c : the contact [-a, c] now [m]
+    dQ : change in the shear load over the half-cycle that raises it [N/m]
+    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+    da, dc : how much further out the edges are than at the other end of the half-cycle [m]
+    order : order of the series: 1 or 2
+
+    Returns
+    -------
+    Edges
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
+        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> d = slip_zones(1.5, 1.0, 0.21, 0.0, f=0.5, **law)
+    >>> [f"{v:.6g}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
+    ['0.030833', '0.0671072']
+    """
+    return cycle.slip_zones(_BODY, {"L": L}, a, c, dQ, dsigma, f, E_star, da, dc, order=order)
+
+
+def slip_error(
+    a: Values,
+    c: Values,
+    dQ: Values,
+    dsigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+    da: Values = 0.0,
+    dc: Values = 0.0,
+    order: int = 1,
+) -> Edges:
+    """Estimated error of the series for the slip zones: the size of the first term left out.
+
+        order 1: |d(2) - d(1)|
+        order 2: (d(2) - d(1))**2/d(1), as if the terms fell in the same ratio
+
+    Parameters
+    ----------
+    a, c, dQ, dsigma, da, dc : as in slip_zones
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+    order : order of the series: 1 or 2
+
+    Returns
+    -------
+    Edges
+        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
+        where dQ >= f (P_1 + P_2), which means sliding.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> error = slip_error(1.5, 1.0, 0.21, 0.0, f=0.5, **law)
+    >>> bool(error.left > 0)
+    True
+    """
+    return cycle.slip_error(_BODY, {"L": L}, a, c, dQ, dsigma, f, E_star, da, dc, order=order)
+
+
+def shear_change(
+    x: Values,
+    first: Contact,
+    second: Contact,
+    dQ: Values,
+    dsigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+) -> Array:
+    """Change in the shear traction at x over the half-cycle; zero outside the contacts.
+
+        dq = kappa f (p_1 + p_2) in the slip zones
+        moderate tension: dq = f (p_1 + p_2) - 2 f p(x; m, n)
+        large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi in the stick zone,
+            w = sqrt((xi + m)(xi - n)), negative on the left
+
+    Parameters
+    ----------
+    x : position along the interface, positive to the right [m]
+    first, second, dQ, dsigma : as in stick_zone
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+
+    Returns
+    -------
+    dq : ndarray
+        [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
+        to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
+        NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
+        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> float(shear_change(here.c + 1.0, here, here, 0.21, 0.0, f=0.5, **law))
+    0.0
+    """
+    return cycle.shear_change(_BODY, {"L": L}, x, first, second, dQ, dsigma, f, E_star)
+
+
+def shear(
+    x: Values,
+    contact: Contact,
+    Q: Values,
+    sigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+    dQ: Values = 0.0,
+    dsigma: Values = 0.0,
+) -> Array:
+    """Shear traction at x in a cycle at constant normal loads; zero outside the contact.
+
+        q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq from shear_change
+
+    First the shear load rises from zero to Q and the tension to sigma, in proportion; then they
+    fall by dQ and dsigma, again in proportion.  A fall of zero gives q at the upper end of a cycle.
+    The fall of a whole half-cycle gives q at the lower end, from which it rises again by
+    shear_change.
+
+    Parameters
+    ----------
+    x : position along the interface, positive to the right [m]
+    contact : Contact under the constant normal loads
+    Q, sigma : shear load [N/m] and differential bulk tension [Pa] reached in the first loading
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+    dQ, dsigma : decrease in both since then [N/m], [Pa]
+
+    Returns
+    -------
+    q : ndarray
+        [Pa]; in the stick zone, the mean of q at both ends of the cycle is the traction that
+        the first rise locked in.  NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma)
+        are both MODERATE or both LARGE, or the latter is FULL_STICK.  Also NaN unless reverse
+        slip is confined to points that slipped during the rise and drives none of them further
+        in the same direction, and dQ <= 2 Q.  If the shear load is larger in magnitude at the lower
+        end, reverse all signs, including that of q.  Also NaN where Q < 0 or dQ < 0, and where
+        Q >= f P, which means sliding.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> q = [shear(0.1, here, 0.21, 0.0, f=0.5, dQ=fall, **law) for fall in (0.0, 2 * 0.21)]
+    >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
+    True
+    """
+    return cycle.shear(_BODY, {"L": L}, x, contact, Q, sigma, f, E_star, dQ, dsigma)
+
+
+def slip_range(
+    x: Values,
+    first: Contact,
+    second: Contact,
+    dQ: Values,
+    dsigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+) -> Array:
+    """Slip range of the surfaces at x over the half-cycle; zero where they stick.
+
+        (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4
+        moderate tension and constant loads: 2 f times the gap outside the contact [-m, n]
+
+    Parameters
+    ----------
+    x : position along the interface, positive to the right [m]
+    first, second, dQ, dsigma : as in stick_zone
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+
+    Returns
+    -------
+    slip : ndarray
+        [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
+        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
+    0.0
+    """
+    return cycle.slip_range(_BODY, {"L": L}, x, first, second, dQ, dsigma, f, E_star)
+
+
+def march(
+    P: Values,
+    M: Values,
+    Q: Values,
+    sigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+) -> March:
+    """A steady cycle instant by instant: contact, stick zone, direction of slip at the edges.
+
+    Since the last reversal of the loads, at the least or the greatest Q, slip has grown as in a
+    half-cycle of stick_zone that ends now.  This does not hold if the whole half-cycle is MIXED;
+    then at most the state at its end is known.
+
+    Parameters
+    ----------
+    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
+        at every instant, along the last axis
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+
+    Returns
+    -------
+    March
+        a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
+        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
+        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
+        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
+        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
+        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
+        not cycles.
+
+    Raises
+    ------
+    ValueError
+        Also if there are fewer than two instants, or if f, E_star or a parameter of the body
+        changes with time.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> Q = np.array([0.0, 1.0, 0.0, -1.0]) * 0.21 / 2
+    >>> march(1.6682, 0.776578, Q, 0.0, f=0.5, **law).left.tolist()
+    [1, 1, -1, -1]
+    """
+    return cycle.march(_BODY, {"L": L}, P, M, Q, sigma, f, E_star)
+
+
+def history(
+    P: Values,
+    M: Values,
+    Q: Values,
+    sigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+    x: Values | None = None,
+    tol: float = 1e-3,
+) -> History:
+    """Stick zone, shear traction, slip and frictional work at each instant of any load history.
+
+        |q| <= f p, int q dx = Q, slip only where |q| = f p and opposite to q
+        constant P and M, sigma = k Q, |k| <= 8/(pi (a + c)), |Q| < f P:
+            load(m, n) = P - dQ/(2 f), tilt(m, n) = alpha - dsigma/(4 f E*)
+
+    The first conditions are solved on elements, one convex problem per load step.  The history
+    begins with the contact under P[0], M[0] without shear; then Q[0] and sigma[0] are applied.  In
+    the second case the results are exact and the regime is MODERATE: dQ and dsigma are the changes
+    since each reversal of the loads, or 2 Q and 2 sigma before the first one.
+
+    Parameters
+    ----------
+    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
+        at every instant, along the last axis; between two instants all loads vary linearly
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+    x : positions at which to return shear and slip; none unless given [m]
+    tol : target error: m and n relative to a + c, shear relative to f P/(a + c)
+
+    Returns
+    -------
+    History
+        a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m]; error.  All are NaN
+        where there is no contact.  If the contact slides, m and n are NaN at that instant, and
+        slip and work from then on.  If the regime is UNSOLVED, only a and c are known, for example
+        after P = 0 with M != 0, when the contact approaches from a great distance.
+
+    Raises
+    ------
+    ValueError
+        Also if there is no instant; if f, E_star or a parameter of the body changes with time; or
+        if tol is not positive.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> Q = np.array([0.0, 1.0, -1.0]) * 0.21 / 2
+    >>> states = history(1.6682, 0.776578, Q, 0.0, f=0.5, **law)
+    >>> [Regime(code).name for code in states.regime]
+    ['FULL_STICK', 'MODERATE', 'MODERATE']
+    """
+    return public.history(_BODY, {"L": L}, P, M, Q, sigma, f, E_star, x, tol)
+
+
+def steady_cycle(
+    P: Values,
+    M: Values,
+    Q: Values,
+    sigma: Values,
+    *,
+    f: Values,
+    E_star: Values,
+    L: Values,
+    x: Values | None = None,
+    tol: float = 1e-3,
+) -> SteadyCycle:
+    """The steady cycle to which a closed load history settles: stick zone, slip range and work.
+
+        M = 0, tilt and sigma constant, |Q| < f P: [-m, n] is the contact under
+            P_E = -(max(Q - f P) + max(-Q - f P))/(2 f)
+
+    In this case m and n are exact, whatever the phase between P and Q, and the regime is MODERATE.
+    Where stick_zone is exact, m and n are its results.  Otherwise the history is repeated on
+    elements until slip repeats, and the points that no longer slip make up the stick zone.
+
+    Parameters
+    ----------
+    P, M, Q, sigma : as in history; the loads return from the last instant to the first
+    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
+        which the flanks have slope one [m]
+    x : positions at which to return shear and slip; none unless given [m]
+    tol : target error of m and n, relative to a + c
+
+    Returns
+    -------
+    SteadyCycle
+        m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error.  Slip
+        range, shear traction and work are computed on elements, even where m and n are exact.
+        All are NaN if the contact is lost or slides; m and n are NaN if no point sticks
+        throughout the cycle.
+
+    Raises
+    ------
+    ValueError
+        As for history.
+
+    Examples
+    --------
+    >>> law = dict(E_star=1.0, L=1.0)
+    >>> Q = np.array([0.0, 1.0, 0.0, -1.0]) * 0.21 / 2
+    >>> steady = steady_cycle(1.6682, 0.776578, Q, 0.0, f=0.5, **law)
+    >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
+    '1.4582'
+    """
+    return public.steady_cycle(_BODY, {"L": L}, P, M, Q, sigma, f, E_star, x, tol)

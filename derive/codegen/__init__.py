@@ -17,5 +17,5 @@ mark      the first line of every generated file
 trial     runs the printed module and compares its results with the sheet
 publish   compares a whole package with the one on disk, or replaces it
 
-Besides NumPy, generated modules need only derive/runtime/, which is copied beside them.
+Besides NumPy, generated modules need only generated/runtime/, which is copied beside them.
 """

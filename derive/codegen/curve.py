@@ -55,28 +55,29 @@ class CurveText(LawText):
             "slope": ("x", "g'(x) and g''(x); infinite beyond the ends of the body."),
             "series": ("a, c", "L_N for E* = 1."),
         }
-        yield "@kernel(BESIDE_BREAK)"
+        yield "@kernel"
         words = "g', g'' and t g''' at the distance t from a break."
         lines = [*self._demands(), *_branches(pieces), "    return np.nan, np.nan, np.nan"]
         yield from self.function("_curve", "piece, side, t", words, lines)
         steps = {kink.position: kink.step for kink in slope.kinks}
         for name, words, values in (
-            ("_breaks", "Points at which the curve is cut.", positions),
+            ("_cuts", "Points at which the curve is cut.", positions),
             ("_corners", "The jump of g' at each of these points.", map(steps.get, positions)),
         ):
             printed = (as_float(NumPyPrinter().doprint(value or S.Zero)) for value in values)
-            yield "@kernel(BREAKS)"
+            yield "@kernel"
             yield from self.function(
                 name, "", words, [f"    return np.array([{', '.join(printed)}])"]
             )
         for name, (arguments, words) in functions.items():
-            yield f"@kernel({name.upper()})"
             lines = [
                 *(self._ends() if name == "slope" else ()),
-                "    curve = curve_of(_curve, _breaks, _corners)",
+                "    curve = curve_of(_curve, _cuts, _corners)",
                 f"    return pieces.{name}(curve, {arguments}, own)",
             ]
-            yield from self.function(f"_{name}", arguments, words, lines)
+            yield from self.function(f"_law_{name}", arguments, words, lines)
+        words = "Points at which the formula of the curve changes."
+        yield from self.function("_law_breaks", "", words, ["    return _cuts(own)"])
 
     def _demands(self) -> Iterator[str]:
         """Code that returns NaN unless the parameters meet the conditions of the body.

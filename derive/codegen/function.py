@@ -1,6 +1,7 @@
 """Prints one generated function: its signature, its docstring with equations and proofs, its code.
 
-The runtime adds the sections for arguments and errors, which are the same in all functions.
+The formula is a function of its own, of numbers or arrays, which kernels call, too.  The public
+function beside it passes its arguments on, checked and broadcast.
 
 In:  a proven FormulaSheet and a Function of the contract.
 Out: Python source, not yet formatted.
@@ -13,7 +14,7 @@ from itertools import product
 
 import mpmath
 from mpmath import mpf
-from sympy import And, Gt, Lt, Min, Or, S, Symbol
+from sympy import And, Gt, Lt, Min, Or, Piecewise, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
@@ -25,7 +26,7 @@ from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
+from derive.symbols import QUANTITIES, E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
 from derive.units import Dimension, dimension_of
 
 LINE = 100
@@ -37,6 +38,11 @@ _width = Symbol("h")
 def inside_quotes(text: str) -> str:
     """`text` escaped so that it can be placed between triple quotes without closing them."""
     return text.replace("\\", "\\\\").replace('"""', r"\"\"\"")
+
+
+def demands_of(sheet: FormulaSheet) -> str:
+    """What the parameters must satisfy besides being positive; "" if nothing."""
+    return " and ".join(map(str, sheet.geometry.slope.demands))
 
 
 class FunctionText:
@@ -65,15 +71,30 @@ class FunctionText:
     @property
     def text(self) -> str:
         """The whole function."""
-        own = "*_OWN" if self.function.geometric else ""
-        return "\n".join([f"@elementwise({own})", self._head, *self._code])
+        return "\n".join([*self._formula, "", "", self._head, f"    return {self._call}"])
+
+    @property
+    def _formula(self) -> Iterator[str]:
+        """The private function that evaluates the formula."""
+        given = ", ".join(f"{s}: Array" for s in (*self.function.arguments, *self.keywords))
+        yield "@shared"
+        yield f"def _{self.function.name}({given}) -> {self.function.kind or 'Array'}:"
+        yield f'    """{self.function.summary}"""'
+        yield from self._code
+
+    @property
+    def _call(self) -> str:
+        """The expression that the public function returns."""
+        given, constants = map(by_name, (self.function.arguments, self.keywords))
+        kind = f", {self.function.kind}" if self.function.kind else ""
+        return f"evaluated(_{self.function.name}, {given}, {constants}{kind})"
 
     @property
     def _head(self) -> str:
         """The signature and the docstring."""
         function = self.function
-        given = [f"{s}: Array{' = 0.0' * (s == function.optional)}" for s in function.arguments]
-        given += ["*", *(f"{s}: Array" for s in self.keywords)] if self.keywords else []
+        given = [f"{s}: Values{' = 0.0' * (s == function.optional)}" for s in function.arguments]
+        given += ["*", *(f"{s}: Values" for s in self.keywords)] if self.keywords else []
         signature = f"def {function.name}({', '.join(given)}) -> {function.kind or 'Array'}:"
         return f"{signature}\n{textwrap.indent(self._docstring, ' ' * 4)}"
 
@@ -117,13 +138,18 @@ class FunctionText:
 
     @property
     def _further_checks(self) -> Iterator[str]:
-        """A check that x is not NaN, for functions in which `fmax` replaces 0/0 by zero.
+        """Checks of arguments whose NaN would not reach the result.
 
-        That replacement, needed for a corner at an edge, would also replace a NaN in x.
+        At a corner `fmax` replaces 0/0 by zero, and so a NaN in x, too.  A formula with pieces does
+        not use the parameters of the others.
         """
-        corners = (k for k in self.sheet.frame.kinks if k.clipped and k.kink.is_corner)
+        corners = (k for k in self.sheet.frame.kinks if k.kink.is_corner)
         if self.function.name == "pressure" and any(corners):
             yield "x == x"
+        own = [str(q.symbol) for q in self.sheet.geometry.parameters]
+        exprs = (*self.program.outputs.values(), *(step.expr for step in self.program.steps))
+        if len(own) > 1 and any(expr.has(Piecewise) for expr in exprs):
+            yield f"{' * '.join(own)} > 0"
 
     # ------------------------------------------------------------------ docstring
 
@@ -135,6 +161,7 @@ class FunctionText:
                 equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
             )
         lines += ["", *textwrap.wrap(f"{self._proofs}{self.note}", LINE - 4)]
+        lines += ["", "Parameters", "----------", *self._parameters]
         kind, fields = self._returns
         lines += ["", "Returns", "-------", kind, *_indented(f"{fields}; {self._existence}")]
         lines += ["", "Examples", "--------", *self._doctest]
@@ -151,6 +178,14 @@ class FunctionText:
             yield f"{symbol} = {text_of(definition)}"
         if any(str(symbol) == "e" for symbol in symbols):
             yield "e = M/P"
+
+    @property
+    def _parameters(self) -> Iterator[str]:
+        """One line for each argument; those of the material and the body share one."""
+        for symbol in self.function.arguments:
+            yield from argument_lines(str(symbol), meaning_of(str(symbol)))
+        if self.keywords:
+            yield from constants_lines(self.sheet, [str(symbol) for symbol in self.keywords])
 
     @property
     def _returns(self) -> tuple[str, str]:
@@ -206,6 +241,30 @@ class FunctionText:
         else:
             yield f'>>> f"{{{self.function.name}({call}):.6g}}"'
             yield repr(shown[0])
+
+
+def by_name(symbols: Iterable[Symbol]) -> str:
+    """A dictionary of variables by their names, as code."""
+    return f"{{{', '.join(f'{str(s)!r}: {s}' for s in symbols)}}}"
+
+
+def meaning_of(name: str) -> str:
+    """What an argument means, with its unit."""
+    quantity = QUANTITIES[name]
+    return f"{quantity.meaning} [{quantity.unit}]"
+
+
+def argument_lines(names: str, meaning: str) -> list[str]:
+    """The entry of one argument, or several, in a docstring."""
+    return textwrap.wrap(f"{names} : {meaning}", LINE - 4, subsequent_indent="    ")
+
+
+def constants_lines(sheet: FormulaSheet, names: list[str]) -> list[str]:
+    """The entry of the constants of the material and the body, which the docstrings share."""
+    brief = {name: replace(q, meaning=q.meaning.split(",")[0]) for name, q in QUANTITIES.items()}
+    known = brief | {q.name: q for q in sheet.geometry.parameters}
+    meanings = [f"{known[name].meaning} [{known[name].unit}]" for name in names]
+    return argument_lines(", ".join(names), "; ".join(meanings))
 
 
 def _in_words(condition: Boolean, inner: bool = False) -> str:
@@ -283,7 +342,7 @@ def local(sheet: FormulaSheet, name: str) -> str:
 
 
 def checks_of(conditions: Iterable[Boolean]) -> list[str]:
-    """The conditions that the code checks; `elementwise` checks the constants.
+    """The conditions that the code checks; those on the constants are checked in arrays.py.
 
     Lengths are limited so that their products stay within the range of float64.
     """

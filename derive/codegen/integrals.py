@@ -2,7 +2,7 @@
 
 In:  a FormulaSheet and a Function of the contract.
 Out: the text of the function; for its docstring, the integrals over g'' that
-     derive/runtime/pieces.py evaluates, and the definitions of the functions in these integrals.
+     generated/runtime/pieces.py evaluates, and the definitions of the functions in these integrals.
 
 Each corner, where g' jumps, adds a term in which the jump of g' takes the place of g'' dxi.
 """
@@ -28,7 +28,7 @@ from sympy import (
     sqrt,
 )
 
-from derive.codegen.function import FunctionText, local
+from derive.codegen.function import FunctionText, by_name, local
 from derive.codegen.program import Program
 from derive.notation import text_of
 from derive.piece import Piece
@@ -61,11 +61,9 @@ class IntegratedText(FunctionText):
     @property
     def text(self) -> str:
         """The whole function, which passes its arguments on to the law of the body."""
-        own = ", ".join(f"{q.name}={q.name}" for q in self.sheet.geometry.parameters)
-        passed = (*self.function.arguments, *self.function.constants)
-        given = ", ".join(f"{s}={s}" for s in passed)
-        asked = f"    asked = Asked(_BODY, {self.function.name}, dict({own}))"
-        return f"@documented(*_OWN)\n{self._head}\n{asked}\n    return integrated(asked, {given})"
+        own = by_name(q.symbol for q in self.sheet.geometry.parameters)
+        passed = ", ".join(map(str, (*self.function.arguments, *self.function.constants)))
+        return f"{self._head}\n    return cycle.{self.function.name}(_BODY, {own}, {passed})"
 
     @property
     def _equations(self) -> Iterator[str]:

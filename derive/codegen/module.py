@@ -2,7 +2,7 @@
 
 In:  a proven FormulaSheet.
 Out: the text of a module: first the functions of the contract, then the functions of the body that
-     the solvers call, then the functions of a cycle, bound to the body.
+     the solvers call, then the functions that the runtime solves.
 """
 
 import ast
@@ -14,19 +14,17 @@ from ruff import find_ruff_bin
 
 from derive.codegen.contract import CONTRACT
 from derive.codegen.curve import CurveText
-from derive.codegen.function import LINE, FunctionText, inside_quotes
+from derive.codegen.function import LINE, FunctionText, demands_of, inside_quotes
 from derive.codegen.integrals import IntegratedText
 from derive.codegen.law import LawText
 from derive.codegen.mark import MARK
 from derive.codegen.parts import SummedText, angles_text, definitions_text
 from derive.codegen.plan import Route, carried_by, route_of
 from derive.codegen.publish import FULL_STICK
+from derive.codegen.solved import solved_functions
 from derive.notation import text_of
-from derive.runtime import segments
-from derive.runtime.cycle import CYCLE, EXPLAINING
-from derive.runtime.history.public import HISTORIES
-from derive.runtime.shared import SHARED
 from derive.sheet import FormulaSheet
+from derive.theory.segments import FUNCTIONS
 
 _KINDS = (
     *("Contact", "Edges", "History", "March", "Regime"),
@@ -35,17 +33,14 @@ _KINDS = (
 """Types of results, which a module exports along with its functions."""
 
 _HELPERS = {
-    "arrays": ("elementwise",),
-    "body": ("Asked", "Body", "Example"),
-    "cycle": ("integrated",),
-    "elementary": ("LEAST", "MOST", "kink_logarithm", "where"),
+    "": ("cycle", "pieces"),
+    "arrays": ("evaluated",),
+    "elementary": ("LEAST", "MOST", "kink_logarithm"),
     "history": ("public",),
-    "kernels": ("BREAKS", "PRESSURE", "SERIES", "SLOPE", "STATE", "kernel"),
-    "pieces": ("BESIDE_BREAK", "curve_of"),
-    "segments": tuple(n for n, f in vars(segments).items() if f in SHARED),
-    "shared": ("by_position", "shared"),
-    "types": ("Array", *_KINDS),
-    "words": ("Parameter", "documented"),
+    "kernels": ("Body", "kernel", "shared", "where"),
+    "pieces": ("curve_of",),
+    "segments": tuple({f.__name__ for f in FUNCTIONS} - {"kink_logarithm"}),
+    "types": ("Array", "Values", *_KINDS),
 }
 """The names that a module can import, by their module in runtime/."""
 
@@ -62,17 +57,10 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     Raises NotProven if any formula of the sheet, or any rewritten form of one, is not proven.
     """
     sheet.demand_proven()
-    solved = [f.name for f in CONTRACT if route_of(sheet, f) is Route.SOLVED]
-    bound = [*solved, *(function.__name__ for function in (*CYCLE, *EXPLAINING))]
-    histories = [function.__name__ for function in HISTORIES]
-    names = [*(f.name for f in CONTRACT), *bound[len(solved) :], *histories, *_KINDS]
-    code = "\n\n".join([_parameters(sheet), *_functions(sheet, source)])
-    cycle = "\n".join(
-        [
-            *(f"{name} = _BODY.bound(cycle.{name})" for name in bound),
-            *(f"{name} = _BODY.bound(public.{name})" for name in histories),
-        ]
-    )
+    solved = solved_functions(sheet)
+    given = {f.name for f in CONTRACT if route_of(sheet, f) is not Route.SOLVED}
+    bound = {name: text for name, text in solved.items() if name not in given}
+    code = "\n\n\n".join(["\n\n".join(_functions(sheet)), *bound.values()])
     stuck = [f.name for f in CONTRACT if not f.geometric]
     return formatted(f'''{MARK}
 """{inside_quotes(_heading(sheet, source))}
@@ -81,22 +69,13 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
 import numpy as np
 
 from .{FULL_STICK} import {", ".join(stuck)}
-from .runtime import {"cycle, pieces" if "pieces." in code else "cycle"}
-{_imports(code, (*_KINDS, "public"))}
+{_imports(code, _KINDS)}
 
-{_offered(names)}
+{_offered([*given, *bound, *_KINDS])}
 
 
 {code}
-
-{cycle}
 ''')
-
-
-def _parameters(sheet: FormulaSheet) -> str:
-    """The parameters of the body."""
-    own = ((q.name, q.meaning, q.unit) for q in sheet.geometry.parameters)
-    return f"_OWN = ({''.join(f'Parameter{each!r}, ' for each in own)})"
 
 
 def _heading(sheet: FormulaSheet, source: str) -> str:
@@ -104,7 +83,9 @@ def _heading(sheet: FormulaSheet, source: str) -> str:
     origin = f"g(x) = {text_of(sheet.geometry.g)}, from {source}."
     paragraphs = [textwrap.fill(sheet.geometry.title, LINE - 4)]
     paragraphs.append(textwrap.fill(origin, LINE, subsequent_indent=" " * 4))
-    paragraphs.append(textwrap.fill(SHAPES, LINE))
+    demands = demands_of(sheet)
+    shapes = SHAPES.replace("are positive", f"are positive, {demands}") if demands else SHAPES
+    paragraphs.append(textwrap.fill(shapes, LINE))
     if carried_by(sheet) is Route.PARTS:
         lines = [
             textwrap.fill(line, LINE, initial_indent=" " * 4, subsequent_indent=" " * 8)
@@ -115,9 +96,11 @@ def _heading(sheet: FormulaSheet, source: str) -> str:
 
 
 SHAPES = (
-    "Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN "
-    "unless the constants of material and geometry are positive and the contact width is between "
-    "1e-75 and 1e75 m."
+    "Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast "
+    "shape.  Results are NaN unless the constants of material and geometry are positive and the "
+    "contact width is between 1e-75 and 1e75 m.  Every function raises TypeError for an argument "
+    "that is not a real number, an array of real numbers or the named tuple that it asks for, and "
+    "ValueError for shapes that do not broadcast."
 )
 
 
@@ -151,7 +134,7 @@ import numpy as np
 ''')
 
 
-def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
+def _functions(sheet: FormulaSheet) -> Iterator[str]:
     """The text of every function that has a formula, and of the law of the body."""
     carried = carried_by(sheet)
     if carried is Route.PARTS and (angles := angles_text(sheet)):
@@ -161,7 +144,7 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
         if function.geometric and route is not Route.SOLVED:
             yield _TEXTS[route](sheet, function).text
     made = CurveText if carried is Route.QUADRATURE else LawText
-    yield made(sheet, source).text
+    yield made(sheet).text
 
 
 def _imports(code: str, always: tuple[str, ...] = ()) -> str:
@@ -171,7 +154,8 @@ def _imports(code: str, always: tuple[str, ...] = ()) -> str:
     for module, names in _HELPERS.items():
         needed = sorted({*names} & {*always, *used}, key=_order)
         if needed:
-            lines.append(f"from .runtime.{module} import {', '.join(needed)}")
+            path = ".".join(filter(None, (".runtime", module)))
+            lines.append(f"from {path} import {', '.join(needed)}")
     return "\n".join(lines)
 
 

@@ -21,18 +21,14 @@ from derive.notation import text_of
 from derive.proof.points import contacts
 from derive.sheet import FormulaSheet
 from derive.symbols import a, c
-from derive.theory.edges import Edge, pressure_series
 from derive.theory.frame import Frame
 from derive.theory.segments import Parts, definitions_of
-
-THIRD = {"left": "third_left", "right": "third_right"}
-"""The fields of the program for the coefficients of s**(5/2) in the pressure."""
 
 
 def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
     """The program of a function; it begins with the steps that all functions have in common.
 
-    fields: the name of a formula of the sheet for the name of each field, or THIRD
+    fields: the name of a formula of the sheet for the name of each field
 
     Raises NotProven if the program does not agree with the sheet.
 
@@ -43,7 +39,7 @@ def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
     E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
     """
     program, common = _program(Parts(sheet.frame), fields, _taken(sheet)), common_steps(sheet)
-    source = {field: _derived(sheet, name) for field, name in fields.items()}
+    source = {field: sheet.flat(name) for field, name in fields.items()}
     words = f"{', '.join(fields.values())} of {sheet.geometry.name!r}, part by part"
     demand_equal(words, program, source, contacts(sheet))
     own = (step for step in program.steps if step not in common)
@@ -85,14 +81,6 @@ def _program(parts: Parts, fields: Mapping[str, str], taken: tuple[str, ...]) ->
 def _taken(sheet: FormulaSheet) -> tuple[str, ...]:
     """Names that no step may have."""
     return tuple(q.name for q in sheet.geometry.parameters)
-
-
-def _derived(sheet: FormulaSheet, name: str) -> Expr:
-    """A formula as derived by the sheet, with the symbols of the frame written out."""
-    if name in THIRD.values():
-        edge = Edge[name.removeprefix("third_").upper()]
-        return sheet.frame.flat(pressure_series(sheet.frame, edge, 3)[2])
-    return sheet.flat(name)
 
 
 # ------------------------------------------------------------------ text

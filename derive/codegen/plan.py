@@ -8,8 +8,7 @@ Out: a Route for each function of the contract.
                 It is used where a contact can move off a kink, because the plain formula would
                 lose digits there, if the curve consists of straight lines and parabolas.
     QUADRATURE  One quadrature over g'', with an integrand of one sign.  It is used where there is
-                no closed formula, or one whose powers cancel.  The coefficient of s**(5/2), which
-                slip zones of order 3 need, is a difference quotient of L_N, accurate to 1e-8.
+                no closed formula, or one whose powers cancel.
     SOLVED      Newton's method on load and moment, or on load and tilt.
 """
 

@@ -2,6 +2,9 @@
 
 In:  the texts of the modules.
 Out: a list of differences, or the replaced directory.  It is replaced completely or not at all.
+
+The hand-written library of every package, runtime/, stands in `generated`, where it is left alone.
+It is copied into other packages.
 """
 
 from collections.abc import Mapping
@@ -13,9 +16,13 @@ from derive.codegen.mark import MARK
 from derive.errors import BadOutput
 from derive.folder import replace_folder
 from derive.manifest import entries, with_manifest
-from derive.runtime import edge
 
-_RUNTIME = Path(__file__).parent.parent / "runtime"
+RUNTIME = "runtime"
+"""The folder of the library."""
+
+LIBRARY = Path(__file__).parents[2] / "generated" / RUNTIME
+"""That folder under version control."""
+
 _TITLE = (
     '"""Contact laws as NumPy functions, one module for each body; every formula is proven."""\n'
 )
@@ -23,17 +30,11 @@ _TITLE = (
 FULL_STICK = "full_stick"
 """The module of the functions that do not depend on a body."""
 
-_EDGE = "\n".join(
-    (
-        '"""Slip zones at the edge of a contact from its coefficients, without its geometry."""\n',
-        "from .runtime.edge import (",
-        *(f"    {name}," for name in edge.__all__),
-        ")\n",
-        "__all__ = [",
-        *(f'    "{name}",' for name in edge.__all__),
-        "]\n",
-    )
-)
+_EDGE = '''"""Slip zones at the edge of a contact from its coefficients, without its geometry."""
+
+from .runtime.edge import *  # noqa: F403
+from .runtime.edge import __all__ as __all__
+'''
 """The module that exports the functions of the runtime for the edge of a contact."""
 
 Files = Mapping[str, str]
@@ -59,16 +60,16 @@ class Difference:
         return self.diff.splitlines()
 
 
-def package_files(modules: Files) -> dict[str, str]:
+def package_files(modules: Files, with_runtime: bool = True) -> dict[str, str]:
     """All files of a package: `modules`, given as texts by name, the runtime, and a list of all."""
     names = sorted({*modules, "edge"})
     listed = "\n".join(["__all__ = [", *(f'    "{name}",' for name in names), "]"])
     files = {"__init__.py": f"{MARK}\n{_TITLE}\n{listed}\n", "py.typed": ""}
     files |= {f"{name}.py": text for name, text in sorted(modules.items())}
     files["edge.py"] = f"{MARK}\n{_EDGE}"
-    for path in sorted(_RUNTIME.rglob("*.py")):
-        name = path.relative_to(_RUNTIME.parent).as_posix()
-        files[name] = f"{MARK}\n{path.read_text(encoding='utf-8')}"
+    if with_runtime:
+        for path in sorted(LIBRARY.rglob("*.py")):
+            files[path.relative_to(LIBRARY.parent).as_posix()] = path.read_text(encoding="utf-8")
     return with_manifest(files)
 
 
@@ -78,9 +79,12 @@ def modules_in(folder: Path) -> dict[str, str]:
     return {p.stem: p.read_text(encoding="utf-8") for p in paths}
 
 
-def differences(files: Files, folder: Path) -> list[Difference]:
-    """The differences between `folder` and `files`, in the names and in the content."""
-    on_disk = {p.relative_to(folder).as_posix(): p for p in entries(folder, files)}
+def differences(files: Files, folder: Path, kept: str = "") -> list[Difference]:
+    """The differences between `folder` and `files`, in the names and in the content.
+
+    kept: an entry that is not compared.
+    """
+    on_disk = {p.relative_to(folder).as_posix(): p for p in entries(folder, files, kept)}
     differing = [Difference(name, "missing") for name in files if name not in on_disk]
     differing += [Difference(name, "not generated") for name in on_disk if name not in files]
     for name, path in on_disk.items():
@@ -102,15 +106,15 @@ def _diff(name: str, path: Path, wanted: str) -> str:
     return "".join(lines)
 
 
-def publish(files: Files, folder: Path, edited: bool = True) -> None:
+def publish(files: Files, folder: Path, kept: str = "") -> None:
     """Replace `folder` by a package, completely or not at all.
 
-    edited: whether a generated file that was changed later belongs to the user.
+    kept: an entry that stays as it is.
 
     Raises BadOutput if `folder` contains a file that was not generated, or was changed since, or
     cannot be written.
     """
-    replace_folder(files, folder, BadOutput, edited)
+    replace_folder(files, folder, BadOutput, kept)
 
 
 def resolved(folder: Path) -> Path:

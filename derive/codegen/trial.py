@@ -8,10 +8,13 @@ every function is called at the contacts of the proof, with scalars and with arr
 """
 
 import importlib
+import os
 import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -21,7 +24,7 @@ import numpy as np
 from mpmath import mpf
 
 from derive.codegen.contract import CONTRACT, Function
-from derive.codegen.publish import FULL_STICK
+from derive.codegen.publish import FULL_STICK, LIBRARY
 from derive.errors import NotProven
 from derive.proof.points import Point, contacts, named, numeric
 from derive.sheet import FormulaSheet
@@ -162,8 +165,7 @@ def _called(
 def imported(name: str, text: str, stuck: str) -> Iterator[ModuleType]:
     """The module, imported in a package of its own that is removed again afterwards.
 
-    Its runtime is derive.runtime, whose kernels run as plain Python: to compile them takes longer
-    than to run them a few times.
+    Its solvers run as plain Python: compiling them takes longer than running them a few times.
     """
     with tempfile.TemporaryDirectory() as folder:
         package = f"_trial_of_{name}"
@@ -174,7 +176,8 @@ def imported(name: str, text: str, stuck: str) -> Iterator[ModuleType]:
         sys.path.insert(0, folder)
         importlib.invalidate_caches()
         sys.modules |= {
-            module.__name__.replace("derive", package, 1): module for module in _runtime()
+            f"{package}.runtime{module.__name__.removeprefix(_PLAIN)}": module
+            for module in _plain_runtime()
         }
         try:
             yield importlib.import_module(f"{package}.{name}")
@@ -184,8 +187,29 @@ def imported(name: str, text: str, stuck: str) -> Iterator[ModuleType]:
                 del sys.modules[loaded]
 
 
-def _runtime() -> list[ModuleType]:
-    """The modules of the runtime, which generated modules import."""
-    runtime = importlib.import_module("derive.runtime")
-    names = sorted(path.stem for path in Path(runtime.__path__[0]).glob("[a-z]*.py"))
-    return [runtime, *(importlib.import_module(f"derive.runtime.{name}") for name in names)]
+_PLAIN = "_plain_runtime"
+"""The name under which the runtime is imported as plain Python."""
+
+
+@cache
+def _plain_runtime() -> list[ModuleType]:
+    """The modules of the runtime as plain Python, beside compiled ones that the user may have."""
+    spec = spec_from_file_location(_PLAIN, LIBRARY / "__init__.py")
+    assert spec and spec.loader
+    package = sys.modules[_PLAIN] = module_from_spec(spec)
+    before = os.environ.get(_SWITCH)
+    os.environ[_SWITCH] = "1"
+    try:
+        spec.loader.exec_module(package)
+        for name in ("cycle", "history.public", "pieces", "segments"):
+            importlib.import_module(f"{_PLAIN}.{name}")
+    finally:
+        if before is None:
+            del os.environ[_SWITCH]
+        else:
+            os.environ[_SWITCH] = before
+    return [module for name, module in sys.modules.items() if f"{name}.".startswith(f"{_PLAIN}.")]
+
+
+_SWITCH = "NUMBA_DISABLE_JIT"
+"""numba's own setting, which the runtime reads when it is imported."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from derive.edge.table import Step
 from derive.errors import BadTable
-from derive.runtime.edge import (
+from generated.runtime.edge import (
     OtherEdge,
     Pressure,
     PressureFit,

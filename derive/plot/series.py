@@ -33,7 +33,7 @@ def relative_errors(
     dsigma: Array,
     *,
     f: float,
-    orders: Sequence[int] = (1, 2, 3),
+    orders: Sequence[int] = (1, 2),
     **constants: float,
 ) -> Errors:
     """Errors of the series of the slip zones of a body under constant normal loads.
@@ -83,7 +83,7 @@ def errors(
     dsigma: Array,
     *,
     f: float,
-    orders: Sequence[int] = (1, 2, 3),
+    orders: Sequence[int] = (1, 2),
     axes: Axes | None = None,
     **constants: float,
 ) -> Axes:

@@ -35,7 +35,6 @@ LINES: dict[str, dict[str, Any]] = {
     "printed": {"color": COLOURS["purple"], "linestyle": "-.", "linewidth": 1.6},
     "order 1": {"color": COLOURS["vermilion"], "linestyle": "--", "linewidth": 1.6},
     "order 2": {"color": COLOURS["green"], "linestyle": ":", "linewidth": 2.4},
-    "order 3": {"color": COLOURS["blue"], "linestyle": (0, (6, 2, 1, 2, 1, 2)), "linewidth": 1.6},
     "solver": {"color": COLOURS["black"], "linestyle": "", "marker": "o", "markersize": 3.5},
 }
 """The line styles of each kind of result, the same in every picture."""

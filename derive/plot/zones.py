@@ -286,7 +286,7 @@ def boundaries(
     zones : March or StickZone
         The stick zones: a result of `march` or `stick_zone`, or a StickZone of your own.
     kind : str
-        The line style: "exact", "printed", "order 1", "order 2", "order 3" or "solver".
+        The line style: "exact", "printed", "order 1", "order 2" or "solver".
     length : Measure
         The unit of x in the map.
     label : str, optional

@@ -12,7 +12,7 @@ For a part between kinks 1 and 2, with sin_j and cos_j of half the angles of its
 
     int w ds = (h**2/4) (segment(t/2) + sin(t) (sin_1 cos_2 + cos_1 sin_2)**2).
 
-derive/runtime/segments.py evaluates these functions.
+generated/runtime/segments.py evaluates these functions.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -219,21 +219,6 @@ class second_term(Named):
         return Piecewise((found, far > 0), (S.Zero, True))
 
 
-class third_term(Named):
-    """int (3 sin(v)**2 + 12 tan(v)**2 + 8 tan(v)**4) dv over the half angles of a part."""
-
-    nargs = 3
-    letters = (_t, _near, _far)
-
-    @staticmethod
-    def definition(t: Expr, near: Expr, far: Expr) -> Expr:
-        """The definition in elementary functions."""
-        rise = sin(t / 2) / far
-        first = 4 * rise - 5 * t / 4 + 3 * sin(t / 2) * (near - far) / 2
-        steep = 8 * near / far * rise + Rational(8, 3) * rise**3
-        return Piecewise((first + steep, far > 0), (S.Zero, True))
-
-
 class end_pressure(Named):
     """int L ds/h over a part between an edge and a kink; u and v are sine and cosine of x."""
 
@@ -269,7 +254,7 @@ def _level(p: Expr, q: Expr) -> Expr:
 
 FUNCTIONS = (
     *(edge_angle, segment, involute, part_area, part_arm, part_weight, root_ratio),
-    *(kink_logarithm, second_term, third_term, end_pressure, part_pressure),
+    *(kink_logarithm, second_term, end_pressure, part_pressure),
 )
 """All named functions; the runtime contains each of them under the same name."""
 
@@ -501,7 +486,7 @@ class Parts:
 
     @cached_property
     def formulas(self) -> dict[str, Expr]:
-        """All formulas by their names on the sheet, with third_left and third_right in addition."""
+        """All formulas by their names on the sheet."""
         found = {
             "tilt": self.tilt,
             "load": self.load,
@@ -512,7 +497,6 @@ class Parts:
             side = edge.name.lower()
             found[f"K_N_{side}"] = self.edge_coefficient(edge)
             found[f"L_N_{side}"] = self.second_coefficient(edge)
-            found[f"third_{side}"] = self.third_coefficient(edge)
         return found
 
     @property
@@ -563,13 +547,6 @@ class Parts:
         curved = E_star / (3 * pi * sqrt(h)) * self._others(edge, second_term)
         corners = self._jumps(edge, lambda r: r * (3 + 2 * r**2))
         return here + curved + E_star / (6 * pi * h ** Rational(3, 2)) * corners
-
-    def third_coefficient(self, edge: Edge) -> Expr:
-        """Coefficient of s**(5/2), computed likewise."""
-        here = -E_star * self.bend_at(edge) / (16 * h ** Rational(3, 2))
-        curved = E_star / (20 * pi * h ** Rational(3, 2)) * self._others(edge, third_term)
-        corners = self._jumps(edge, lambda r: r * (15 + r**2 * (20 + 8 * r**2)))
-        return here + curved + E_star / (40 * pi * h ** Rational(5, 2)) * corners
 
     @cached_property
     def definitions(self) -> tuple[Definition, ...]:
