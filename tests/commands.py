@@ -47,6 +47,12 @@ def real(*command: str, cwd: Path, **variables: str) -> subprocess.CompletedProc
     )
 
 
+def python(*arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
+    """An interpreter of its own with these arguments, or with one text to run."""
+    command = ("-c", *arguments) if len(arguments) == 1 else arguments
+    return real(sys.executable, *command, cwd=ROOT, **variables)
+
+
 def contents(folder: Path) -> dict[str, bytes]:
     files = (p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
     return {str(p.relative_to(folder)): p.read_bytes() for p in files}

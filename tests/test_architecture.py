@@ -120,8 +120,7 @@ NEVER = {
     ),
     "derive.symbols": ("derive",),
     "derive.errors": ("derive", "sympy", "click", "rich"),
-    "derive.runtime": ("derive", "sympy", "mpmath"),
-    "derive": ("generated", "tests"),
+    "derive": ("tests",),
     "generated": ("derive", "sympy", "mpmath", "tests"),
 }
 
@@ -130,8 +129,6 @@ NEVER = {
 def test_data_flows_one_way(package: str) -> None:
     for name in members(package):
         allowed = {package} if package not in NEVER[package] else set()
-        if package == "derive.runtime":
-            allowed = set(members(package))  # its modules are copied together
         wrong = inside(imported(name), *NEVER[package]) - allowed - {name}
         assert not wrong, f"{name} imports {wrong}"
 
@@ -145,7 +142,8 @@ USERS = {
     "rich": {"derive.showing", "derive.terminal", "derive.view"},
     "matplotlib": {"derive.plot"},
     "ipywidgets": {"derive.plot"},
-    "numba": {"derive.runtime", "generated.runtime"},
+    "numba": {"generated.runtime"},
+    "generated": {"derive.edge", "generated"},
 }
 
 
@@ -219,12 +217,9 @@ def test_the_search_for_executed_text_finds_it(tmp_path: Path) -> None:
 # ------------------------------------------------------------------ generated and its source
 
 
-def test_formulas_do_not_load_numba() -> None:
-    users = {name for name in MODULES if inside(imported(name), "numba")}
-    loaded = {"generated.hertz"}
-    while more := {m for n in loaded for m in imported(n, at_load=True) & MODULES.keys()} - loaded:
-        loaded |= more
-    assert "generated.runtime.body" in loaded and not loaded & users
+def test_derive_takes_only_the_runtime_of_generated() -> None:
+    taken = {m for name in members("derive") for m in inside(imported(name), "generated")}
+    assert taken and taken == inside(taken, "generated.runtime")
 
 
 # ------------------------------------------------------------------ nothing of a machine

@@ -433,7 +433,8 @@ class TestGenerate:
         self, committed: Path, built: list[str]
     ) -> None:
         before = contents(committed)
-        shutil.rmtree(committed)
+        for path in committed.glob("*.*"):  # all but the library, which is written by hand
+            path.unlink()
         printed = done("generate")
         assert "Wrote" in printed and "kept" not in printed
         assert printed.count("0.0 s") == len(library())

@@ -103,3 +103,13 @@ def test_a_device_without_end(tmp_path: Path, command: str) -> None:
 def test_a_log_whose_reading_would_wait(tmp_path: Path, command: str) -> None:
     done = derive(tmp_path, command.format("/proc/kmsg"))
     assert done.returncode == 2 and done.stderr.count("\n") == 1
+
+
+def test_a_package_of_another_version_in_the_current_folder(tmp_path: Path) -> None:
+    runtime = tmp_path / "generated" / "runtime"
+    runtime.mkdir(parents=True)
+    (runtime.parent / "__init__.py").touch()
+    (runtime / "__init__.py").write_text("VERSION = 0\n")
+    (tmp_path / "table.csv").write_text("x [mm],p [MPa]\n0,1\n")
+    done = derive(tmp_path, "edge table.csv --f 0.5")
+    demand_one_line(done, f"{runtime.parent} is of another version than `derive`")

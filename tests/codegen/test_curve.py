@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from inspect import signature
 from types import ModuleType
 
 import mpmath
@@ -61,12 +62,17 @@ def summed(t: mpf, k: mpf) -> list[list[mpf]]:
     ]
 
 
+def own_names(module: ModuleType) -> list[str]:
+    """The parameters of a body in their order."""
+    return [name for name in signature(module.tilt).parameters if name not in ("a", "c")]
+
+
 @contextmanager
 def body_of(g: Expr, **more: float) -> Iterator[tuple[ModuleType, np.ndarray, Callable]]:
     """The module of g(x), its own parameters in their order, and the curve beside x = 0."""
     with module_of(text_of_body(g)) as module:
-        own = np.array([(OWN | more)[name] for name in module._BODY.names])
-        apex = [*module._breaks(own), 0].index(0)
+        own = np.array([(OWN | more)[name] for name in own_names(module)])
+        apex = [*module._cuts(own), 0].index(0)
         yield module, own, lambda side, t: module._curve(apex + (side > 0), side, t, own)
 
 
@@ -87,7 +93,7 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(name:
     g, terms = BODIES[name]
     with body_of(g, k=1.75) as (module, own, curve):
         for exponent in (1.75, 3.25):
-            own[module._BODY.names.index("k")] = exponent
+            own[own_names(module).index("k")] = exponent
             for t in map(float, DISTANCES):
                 with mpmath.workdps(40):
                     wanted = terms(mpf(t), mpf(exponent))
@@ -115,7 +121,7 @@ def test_a_power_that_is_no_whole_or_half_one_is_written_as_it_is(exponent: Expr
 def test_a_corner_where_an_exponential_is_e_becomes_code() -> None:
     """g = phi (b exp(x/b) + Max(0, x - b)): at x = b g' is phi e and phi (e + 1), g'' phi e/b."""
     with body_of(b * phi * sympy_exp(x / b) + phi * Max(0, x - b)) as (module, own, _):
-        at = [*module._breaks(own)].index(0.5)
+        at = [*module._cuts(own)].index(0.5)
         assert module._corners(own)[at] == 0.125
         for piece, side, slope in ((at, -1, np.e), (at + 1, 1, np.e + 1)):
             found = module._curve(piece, side, 0.0, own)
@@ -157,7 +163,7 @@ def exactly(integrand: Callable[[mpf], mpf], a: float, c: float, *cuts: float) -
 
 
 def named(module: ModuleType) -> dict[str, float]:
-    return {name: OWN[name] for name in module._BODY.names}
+    return {name: OWN[name] for name in own_names(module)}
 
 
 SMOOTH: dict[str, tuple[Expr, Callable[[mpf], mpf], list[tuple[float, float]]]] = {

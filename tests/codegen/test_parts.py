@@ -19,11 +19,10 @@ from derive.derivation import derive_sheet
 from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, holds, numeric
-from derive.runtime import elementary, segments
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c, x
-from derive.theory.edges import Edge, pressure_series
 from derive.theory.segments import Parts
+from generated.runtime import elementary, kernels, segments
 from tests.derive.bodies import of_library as sheet_of
 
 BODIES = ("flat_rounded", "rounded_wedge", "two_radii", "wedge_parabola", "flat_sloped")
@@ -34,7 +33,7 @@ phi = parameter("phi", "slope", unit="rad")
 
 FIELDS: tuple[tuple[str, ...], ...] = (
     *(("tilt",), ("load",), ("moment",), ("pressure",)),
-    *((f"{name}_left", f"{name}_right") for name in ("K_N", "L_N", "third")),
+    *((f"{name}_left", f"{name}_right") for name in ("K_N", "L_N")),
 )
 """Formulas of the functions that are sums over parts, one or two of each."""
 
@@ -54,7 +53,7 @@ def function_of(name: str, formulas: tuple[str, ...]) -> Callable[..., Any]:
     outputs = ", ".join(map(printer.doprint, program.outputs.values()))
     lines = [f"{step.symbol} = {printer.doprint(step.expr)}" for step in program.steps]
     text = "\n    ".join([f"def made({', '.join(given)}):", *lines, f"return ({outputs},)"])
-    held: dict[str, Any] = {"np": np} | vars(elementary) | vars(segments)
+    held: dict[str, Any] = {"np": np, "where": kernels.where, **vars(elementary), **vars(segments)}
     exec(text, held)  # noqa: S102
     made: Callable[..., Any] = held["made"]
     return made
@@ -62,11 +61,7 @@ def function_of(name: str, formulas: tuple[str, ...]) -> Callable[..., Any]:
 
 @cache
 def derived(body: str, name: str) -> Expr:
-    sheet = sheet_of(body)
-    if not name.startswith("third_"):
-        return sheet.flat(name)
-    edge = Edge[name.removeprefix("third_").upper()]
-    return sheet.frame.flat(pressure_series(sheet.frame, edge, 3)[2])
+    return sheet_of(body).flat(name)
 
 
 def contacts(sheet: FormulaSheet, count: int = 12) -> list[Point]:

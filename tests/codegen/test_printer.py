@@ -73,9 +73,7 @@ from sympy import (
 )
 
 from derive.codegen.printer import CannotPrint, NumPyPrinter
-from derive.runtime import elementary
-from generated.runtime import elementary as published
-from generated.runtime import kernels
+from generated.runtime import elementary, kernels
 
 x, y, z = symbols("x y z", real=True)
 p, q = symbols("p q", positive=True)
@@ -185,7 +183,7 @@ UNKNOWN: list[Basic] = [
 def computed(expr: Expr, varying: tuple[Symbol, ...], arrays: bool) -> list[float]:
     """The printed text, evaluated at all points: in one go, or point by point."""
     text = NumPyPrinter(varying).doprint(expr)
-    names = {"np": np} | vars(elementary)
+    names = {"np": np, "where": kernels.where} | vars(elementary)
     columns = {str(s): np.array(values) for s, values in POINTS.items()}
     if arrays:
         value = eval(text, names, columns)  # noqa: S307
@@ -218,7 +216,7 @@ def test_numba_compiles_every_function_and_choice() -> None:
     """A body is tried as plain Python before it is written; its users' kernels are compiled."""
     nodes = [*FUNCTIONS, *CHOICES, *SUMS[:3], *POWERS[:9], *ROOTS[:4]]
     lines = [f"    out[{i}] = {NumPyPrinter().doprint(node)}" for i, node in enumerate(nodes)]
-    names = {"np": np, "where": published.where}
+    names = {"np": np, "where": kernels.where}
     text = "\n".join([f"def evaluated({', '.join(map(str, POINTS))}, out):", *lines])
     exec(text, names)  # noqa: S102
     compiled, got = numba.njit(names["evaluated"]), np.empty((3, len(nodes)))

@@ -212,22 +212,22 @@ def test_the_printed_series_are_the_slip_zones(
     name: str, own: dict[str, float], dsigma: float, senses: tuple[int, int]
 ) -> None:
     """The terms of `derive show --slip` by its own definitions, against the module, which solves
-    the conditions to the third order as they stand: of zones of 1e-4 of the width the third term is
-    1e-8, and the fourth, by which both differ, 1e-12."""
+    the conditions to the second order as they stand: of zones of 1e-4 of the width the second term
+    is 1e-4, and the third, by which both differ, 1e-8."""
     a_, c_, dQ, friction = 1.1e-3, 0.9e-3, 5e2, 0.5
     numbers = {"a": a_, "c": c_, "dQ": dQ, "dsigma": dsigma, "f": friction, "E_star": 60e9, **own}
     numbers |= {"kappa_left": senses[0], "kappa_right": senses[1]}
-    terms, known = slip_series(derive_sheet(load_geometry(name)), 3)
+    terms, known = slip_series(derive_sheet(load_geometry(name)), 2)
     for symbol, expr in reversed(known.items()):
         numbers[symbol.name] = expr.xreplace(
             {s: numbers[s.name] for s in expr.free_symbols}
         ).evalf()
     module = import_module(f"generated.{name}")
-    zones = module.slip_zones(a_, c_, dQ, dsigma, f=friction, E_star=60e9, **own, order=3)
+    zones = module.slip_zones(a_, c_, dQ, dsigma, f=friction, E_star=60e9, **own, order=2)
     for edge, zone in zip(Edge, zones, strict=True):
         found = sum(terms[edge])
         total = found.xreplace({s: numbers[s.name] for s in found.free_symbols}).evalf()
-        assert float(total) == pytest.approx(float(zone), rel=1e-10)
+        assert float(total) == pytest.approx(float(zone), rel=1e-6)
 
 
 def test_ratios_of_the_series_have_other_names_than_the_body_s_parameters() -> None:

@@ -1,6 +1,7 @@
 """Coefficients from nodal values: tables of the bodies' exact pressures with noise, and by hand."""
 
 import importlib
+import inspect
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -44,8 +45,9 @@ def draws(name: str, elements: int, count: int, seed: int = 0) -> Draws:
     """Tables of one body with 1 % noise, the mesh anywhere."""
     body = importlib.import_module(f"generated.{name}")
     law, a, c = (BODIES | JUDGES)[name]
-    law = {k: v for k, v in law.items() if k == "E_star" or k in body._BODY.names}
-    if missing := set(body._BODY.names) - law.keys():
+    names = inspect.signature(body.load).parameters.keys() - {"a", "c", "E_star"}
+    law = {k: v for k, v in law.items() if k == "E_star" or k in names}
+    if missing := names - law.keys():
         law |= dict.fromkeys(missing, 1.0)
     size, rng = (a + c) / elements, np.random.default_rng(seed)
     true = body.K_N(a, c, **law).left

@@ -2,9 +2,9 @@
 
 from sympy import Rational, S, binomial, expand, symbols
 
-from derive.runtime.edge import near, zone
 from derive.symbols import f
 from derive.theory import edge, slip
+from generated.runtime.edge import near, zone
 
 K, L, N, K_T, L_T, N_T, D, move = symbols("K L N K_T L_T N_T D move")
 

@@ -1,6 +1,7 @@
 """Slip zones of an edge: by hand, against each body's own, and against the exact ones."""
 
 import importlib
+import re
 from typing import Any
 
 import numpy as np
@@ -17,18 +18,15 @@ F = 0.5
 
 def law_of(body: Any) -> tuple[dict[str, float], float, float, float]:
     """The constants, the contact and the shear of a body's own examples."""
-    example = body._BODY.example
-    law = {k.strip(): float(v) for k, v in (t.split("=") for t in example.law.split(","))}
-    return law, *example.edges, example.carried[0] / 8
+    a, c, *law = re.search(r"load\((.*?)\):", body.load.__doc__)[1].split(", ")
+    constants = {name: float(value) for name, value in (text.split("=") for text in law)}
+    return constants, float(a), float(c), body.load(float(a), float(c), **constants) / 8
 
 
 def pressures(body: Any, law: dict[str, float], a: float, c: float) -> tuple[Pressure, Pressure]:
-    """The three coefficients at each edge."""
-    own = np.array([law[name] for name in body._BODY.names])
-    L_left, L_right, N_left, N_right = body._BODY.functions["series"](a, c, own)
-    K, E_star = body.K_N(a, c, **law), law["E_star"]
-    left = Pressure(K.left, E_star * L_left, E_star * N_left)
-    return left, Pressure(K.right, E_star * L_right, E_star * N_right)
+    """Both coefficients at each edge."""
+    K, L = body.K_N(a, c, **law), body.L_N(a, c, **law)
+    return Pressure(K.left, L.left), Pressure(K.right, L.right)
 
 
 # dsigma over that at which K_T vanishes at the right edge, and the moves of both edges
@@ -42,7 +40,7 @@ CASES = [
 
 
 @pytest.mark.enough("hertz-*", "wedge-*", "flat_sloped-*", "power-*", "unequal_wedge-*")
-@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("name", library())
 def test_with_both_edges_it_is_the_bodys_own(name: str, order: int) -> None:
     body = importlib.import_module(f"generated.{name}")
@@ -57,18 +55,16 @@ def test_with_both_edges_it_is_the_bodys_own(name: str, order: int) -> None:
             for p, K, move, before in zip(now, K_T, (da, dc), then, strict=True)
         ]
         for side, (d, move) in enumerate(zip(own, (da, dc), strict=True)):
-            K, L, N = now[side]
             found = slip_zone(
-                *(K, K_T[side]),
+                *(now[side].K_N, K_T[side]),
                 f=F,
-                **{"L_N": L, "N_N": N, "h": a + c, "da": move, "order": order},
+                **{"L_N": now[side].L_N, "h": a + c, "da": move, "order": order},
                 then=then[side],
                 other=others[1 - side],
             )
             assert_allclose(found.d, d, rtol=4e-15)
-            if order < 3:
-                error = body.slip_error(a, c, dQ, dsigma, f=F, da=da, dc=dc, order=order, **law)
-                assert_allclose(found.error, error[side], rtol=1e-6, atol=1e-14 * d)
+            error = body.slip_error(a, c, dQ, dsigma, f=F, da=da, dc=dc, order=1, **law)
+            assert_allclose(found.error, error[side], rtol=1e-6, atol=1e-14 * d)
 
 
 def test_first_order_by_hand() -> None:

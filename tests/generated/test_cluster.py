@@ -18,7 +18,7 @@ from numpy.testing import assert_array_equal
 
 from derive.codegen.publish import package_files, publish
 from generated import hertz, hyperbola, wedge
-from generated.runtime.words import COMPILING
+from generated.runtime.kernels import COMPILING
 from tests.runtime.test_cycle import cases, each
 
 ROOT = Path(__file__).parents[2]

@@ -67,9 +67,10 @@ def states(name: str) -> tuple[Any, Any]:
     return width / 2 - middle, width / 2 + middle
 
 
-def kinks(name: str) -> Any:
-    body = module(name)
-    return body._BODY.functions["breaks"](np.array([OWN[name][key] for key in body._BODY.names]))
+def kinks(name: str) -> list[float]:
+    """Places where a body's curve or its curvature may change."""
+    found = (kink.position for kink in load_geometry(name).slope.kinks)
+    return [0.0, *(float(at.subs({s: OWN[name][str(s)] for s in at.free_symbols})) for at in found)]
 
 
 # ------------------------------------------------------------------ pressure and full stick
@@ -93,7 +94,7 @@ def test_pressure_carries_load_and_moment(name: str) -> None:
     y = np.pi / 2 * np.sinh(t)
     place, weight = np.tanh(y), np.pi / 32 * np.cosh(t) / np.cosh(y) ** 2
     for edges in zip(a, c, strict=True):
-        cuts = np.sort([-edges[0], *kinks(name), edges[1]])
+        cuts = np.unique([-edges[0], *kinks(name), edges[1]])
         mid, half = (cuts[1:] + cuts[:-1])[:, None] / 2, np.diff(cuts)[:, None] / 2
         x = mid + half * place
         part = half * weight * body.pressure(x, *edges, **given)

@@ -78,17 +78,6 @@ PROFILES = {
         ),
         lambda v: [mpf(0), v["b"], v["b"] + v["h_0"], -v["b"]],
     ),
-    "level_beside_the_origin": Profile(
-        "(x - b)**4/L**3",
-        "b L",
-        lambda v: lambda s: 4 * (s - v["b"]) ** 3 / v["L"] ** 3,
-        lambda v: [v["b"]],
-    ),
-    "soft_wedge": Profile(
-        "phi*b*log(cosh(x/b))",
-        "phi b",
-        lambda v: lambda s: v["phi"] * mpmath.tanh(s / v["b"]),
-    ),
     "lopsided": Profile(
         "phi*b*exp(x/b) + x**2/(2*R)",
         "phi b R",
@@ -119,7 +108,7 @@ def text(name: str, profile: Profile) -> str:
         f'{p} = parameter("{p}", "made up", unit="{UNITS.get(p, "m")}")'
         for p in profile.parameters.split()
     )
-    return f"""from sympy import Abs, Max, Piecewise, cosh, exp, log
+    return f"""from sympy import Abs, Max, exp
 from derive import Geometry, parameter, x
 {made}
 geometry = Geometry("{name}", g={profile.g})

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from generated import hertz, rounded_wedge, wedge
+from generated import hertz, wedge
 from generated.runtime.types import Contact, Regime
 from tests.benchmarks import series
 
@@ -42,7 +42,7 @@ def test_half_of_what_an_edge_gains_is_added_and_taken_off() -> None:
 @pytest.mark.parametrize("name", series.BODIES)
 def test_errors_fall_with_the_power_of_the_order(name: str) -> None:
     for of in series.measured(name, 0.3 * 0.25 ** np.arange(2, 4)):
-        assert_allclose(of.slopes, [1, 2, 3], atol=0.1)
+        assert_allclose(of.slopes, [1, 2], atol=0.1)
 
 
 @pytest.mark.parametrize(("tension", "dc"), [(0.5, 0.01), (0.5, -0.01), (2.5, 0.01), (-2.5, 0.01)])
@@ -60,38 +60,23 @@ def test_varying_loads_at_every_order(tension: float, dc: float) -> None:
         moved = {"da": 1.5 - first.a, "dc": 1.0 - first.c}
         found = [
             wedge.slip_zones(1.5, 1.0, shear, dsigma, **WEDGE, **moved, order=order)
-            for order in (1, 2, 3)
+            for order in (1, 2)
         ]
         errors.append([abs(d.left - (1.5 - zone.m)) + abs(d.right - (1 - zone.n)) for d in found])
     powers = np.log(np.array(errors[0]) / errors[1]) / np.log(8)
-    assert_allclose(powers, [2, 3, 4], atol=0.25)
+    assert_allclose(powers, [2, 3], atol=0.25)
 
 
 @pytest.mark.parametrize("share", [1e-4, 1e-3])
 def test_the_estimate_of_tiny_slip_zones_by_hand(share: float) -> None:
-    """A cylinder: K, L = -K/(2 h), N = -K/(8 h**2).  By the first order d = h q/4, q = dQ/(2 f P).
+    """A cylinder: K, L = -K/(2 h), and exactly d = (h/2)(1 - sqrt(1 - q)), q = dQ/(2 f P).
 
-    Exactly d = h (q/4 + q**2/16 + ...): the second order adds d**2/h.  To the conditions, (1/2) K
-    sqrt(h) d = dQ/(2 pi f) at first, the third order adds (-K/128 + L h/32 + 5 N h**2/16)
-    d**3/h**(3/2) at one edge and (-K/32 + L h/16) d**3/h**(3/2) from the other one, -K
-    d**3/(8 h**(3/2)) together, so that d grows by d**3/(4 h**2).
+    By the first order d = h q/4; exactly d = h (q/4 + q**2/16 + q**3/32 + ...).  The second order
+    adds d**2/h, with d of the first order; what it leaves out is estimated as (d**2/h)**2/d.
     With a = c = 1, E* = 1 and R = pi/2 the load is P = pi E* h**2/(16 R) = 1/2.
     """
     here, law = (1.0, 1.0, F * share, 0.0), {"f": F, "E_star": 1.0, "R": np.pi / 2}
     d = share / 2
     first, second = (hertz.slip_error(*here, **law, order=order) for order in (1, 2))
     assert_allclose(first, d**2 / 2, rtol=1e-14 / d + 4 * d)
-    assert_allclose(second, d**3 / 16, rtol=1e-14 / d**2 + 8 * d)
-
-
-def test_a_body_whose_kinks_are_near_its_edges() -> None:
-    """The third coefficient is found without stepping over a kink; b = 0.99 of the edge."""
-    own = {"E_star": E_STAR, "phi": 0.25, "b": 0.99}
-    shear = 1e-5 * F * rounded_wedge.load(1.0, 1.0, **own)
-    here = Contact(1.0, 1.0, 0.0)
-    zone = rounded_wedge.stick_zone(here, here, shear, 0.0, f=F, **own)
-    errors = [
-        abs(rounded_wedge.slip_zones(1.0, 1.0, shear, 0.0, f=F, **own, order=k).left - (1 - zone.m))
-        for k in (1, 2, 3)
-    ]
-    assert errors[2] < errors[1] < errors[0]
+    assert_allclose(second, d**3 / 4, rtol=1e-14 / d + 8 * d)

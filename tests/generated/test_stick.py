@@ -231,7 +231,7 @@ def test_the_mirror_swaps_the_edges(
         mirror = of(there, other, shear, **turned)
         assert_allclose(of(here, second, shear, **law), (-mirror.upper, -mirror.lower), **near)
     moved, back = {"da": a * da, "dc": c * dc}, {"da": c * dc, "dc": a * da}
-    for order in (1, 2, 3):
+    for order in (1, 2):
         zones = body.slip_zones(a, c, shear, dsigma, **law, **moved, order=order)
         mirror = body.slip_zones(c, a, shear, -dsigma, **turned, **back, order=order)
         assert_allclose(zones, mirror[::-1], **near)

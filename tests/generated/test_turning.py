@@ -45,7 +45,7 @@ def half_cycle(name: str, a: float, c: float, dQ: float, tension: float) -> Half
 
     def pressure(x: Any) -> Any:
         """Compiled: it is asked tens of thousands of times."""
-        rows, out = np.empty((len(x), 3)), np.empty((len(x), 1))
+        rows, out = np.ones((len(x), 4)), np.empty((len(x), 1))
         rows[:, 0], rows[:, 1], rows[:, 2] = x, a, c
         each_pressure(body._BODY.law, rows, np.tile(own, (len(x), 1)), out)
         return E_STAR * out[:, 0]

@@ -54,7 +54,7 @@ def test_the_printed_coefficient_of_a_tilted_contact() -> None:
 @pytest.mark.usefixtures("wedge_alone")
 def test_the_printed_march_ends_as_the_printed_series_does() -> None:
     of = common.cycle((1.0, 1.0), (0.1, 0.15), DQ, PULL, count=9)
-    marched = common.printed_march(wedge, of, **GIVEN)
+    marched = common.series_march(wedge, of, **GIVEN)["printed"]
     first, second = (wedge.contact(1.0, M, **LAW) for M in (0.1, 0.15))
     for at, begin, end in ((4, first, second), (8, second, first)):
         moved = {"da": end.a - begin.a, "dc": end.c - begin.c}

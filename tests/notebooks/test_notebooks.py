@@ -9,7 +9,7 @@ import matplotlib
 import nbformat
 import pytest
 
-from derive.runtime.words import COMPILING
+from generated.runtime.kernels import COMPILING
 from notebooks import picture, running
 
 matplotlib.use("Agg")

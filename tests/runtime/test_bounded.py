@@ -5,17 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from generated.runtime.kernels import LOOP, kernel, opened
+from generated.runtime.kernels import loop, opened
 from generated.runtime.slip import bounded
 from generated.runtime.slip.bounded import Slip, Zone
 from generated.runtime.slip.quadrature import slip_nodes
 
-from .laws import flat_rounded, hertz, solved, wedge
+from .laws import flat_rounded, hertz, plain, solved, wedge
 
 LEVEL = 2
 
 
-@kernel(LOOP)
+@loop
 def _each_even(law, given, own, out):
     """given: h, the lengths of two zones, and r in them; out: the sums."""
     for i in range(given.shape[0]):
@@ -27,7 +27,7 @@ def _each_even(law, given, own, out):
         out[i, 0], out[i, 1], _, _ = bounded.sums(Slip(h / 2, h / 2, left, right, one, other))
 
 
-@kernel(LOOP)
+@loop
 def _each_sums(law, given, own, out):
     """given: a cycle, m and n; out: the sums."""
     law = opened(law)
@@ -68,7 +68,7 @@ def test_rates_are_those_of_differences(case, cycle, ends):
 
     def off(m, n):
         ((L, R, *rates),) = solved(_each_sums, case, [(*cycle, m, n)], 4)
-        left, right = bounded.drives(cycle[4], cycle[5], m + n)
+        left, right = plain(bounded.drives)(cycle[4], cycle[5], m + n)
         return np.array([L - left, R - right]), rates
 
     (left, right), (by_m, by_n) = off(m, n)

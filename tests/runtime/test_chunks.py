@@ -136,14 +136,12 @@ def test_from_loads_to_slip_each_chunk_is_computed_once_and_alone() -> None:
 def test_the_same_call_has_the_same_name() -> None:
     """So that Dask shares what two results have in common."""
     P = da.linspace(1, 2, 6, chunks=2)
-    one, two, other = (hertz.contact(P, M, E_star=1.0, R=1.0) for M in (0.1, 0.1, 0.2))
-    assert one.a.name == two.a.name
-    assert len({one.a.name, one.c.name, other.a.name}) == 3
-    assert one.a.name.startswith("contact-a-")
-    here = Contact(P, 1.0, 0.0)
-    zones = [hertz.slip_zones(here.a, 1.0, 0.1, 0.0, **CYLINDER, order=n) for n in (1, 1, 2)]
-    assert zones[0].left.name == zones[1].left.name != zones[2].left.name
-    assert zones[0].left.name.startswith("slip_zones-left-")
+    one, two, other = (hertz.contact(P, M, E_star=1.0, R=1.0).a.name for M in (0.1, 0.1, 0.2))
+    assert one == two != other and one.startswith("contact-a-")
+    one, two, other = (
+        hertz.slip_zones(P, 1.0, 0.1, 0.0, **CYLINDER, order=n).left.name for n in (1, 1, 2)
+    )
+    assert one == two != other
 
 
 # ------------------------------------------------------------------ what is refused, at the call
@@ -167,14 +165,14 @@ def wrong(kind: Any) -> Any:
          lambda: wedge.contact(ONES, np.ones(9), **LAW)),
         (ValueError, r"shapes are first.a \(3,\), second.a \(4,\)",
          lambda: wedge.stick_zone(LAZY, Contact(da.ones(4), 1.0, 0.0), 0.1, 0.0, **STATE)),
-        *((TypeError, "a must be a real number or an array of real numbers; got Array dask.array",
+        *((TypeError, "a must be a real number or a list.*; got dask.*Array dask.array",
            lambda of=of: wedge.load(wrong(of), 1.0, **LAW))
           for of in (complex, object, "U3", bool, "M8[s]")),
         (TypeError, "dQ must be a real number",
          lambda: wedge.stick_zone(HERE, HERE, wrong(complex), 0.0, **STATE)),
         (ValueError, r"the last axis of Q is time and must lie in one chunk.*\(5, 5\).*rechunk",
          lambda: wedge.march(1.0, 0.0, da.ones((4, 10), chunks=(2, 5)), 0.0, **STATE)),
-        (ValueError, "order must be from 1 to 3; got 7",
+        (ValueError, "order must be 1 or 2; got 7",
          lambda: wedge.slip_zones(ONES, 1.0, 0.1, 0.0, order=7, **STATE)),
         (TypeError, r"slip_zones\(\) got an unexpected keyword argument 'surplus'",
          lambda: wedge.slip_zones(ONES, 1.0, 0.1, 0.0, surplus=1, **STATE)),
@@ -202,5 +200,5 @@ def test_the_page_shows_what_happens() -> None:
     failed, attempted = doctest.testfile(str(PAGE), module_relative=False)
     assert (failed, attempted) == (0, 10)
     links = re.findall(r"\]\(([^)#:]+)\)", PAGE.read_text())
-    assert len(links) >= 4
+    assert links
     assert all((PAGE.parent / link).exists() for link in links)

@@ -2,15 +2,9 @@
 
 import math
 
-import numpy as np
 import pytest
 
-from generated.runtime.elementary import kink_logarithm, where
-
-
-def test_where_chooses_between_numbers_and_between_arrays():
-    assert where(True, 3.0, 4.0) == 3.0 and where(False, 3.0, 4.0) == 4.0
-    np.testing.assert_array_equal(where(np.array([True, False]), 3.0, np.array([4, 5])), [3, 5])
+from generated.runtime.elementary import kink_logarithm
 
 
 @pytest.mark.parametrize(

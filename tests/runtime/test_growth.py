@@ -8,15 +8,15 @@ import math
 import numpy as np
 import pytest
 
-from generated.runtime.kernels import LOOP, kernel, opened
+from generated.runtime.kernels import loop, opened
 from generated.runtime.slip import growth
 
-from .laws import hertz, solved, state
+from .laws import hertz, plain, solved, state
 
 F = 0.5
 
 
-@kernel(LOOP)
+@loop
 def _each_way(law, given, own, out):
     """given: both contacts as rows of a way; out: the way, row by row."""
     law = opened(law)
@@ -56,7 +56,7 @@ def test_a_way_holds_the_contacts_of_loads_in_proportion():
 def test_what_drives_both_edges_by_hand():
     """dP +- 4 h_s (dM + mid dP)/h**2.  A cylinder from [-1, 1] to [-1.1, 0.9]: dP = 0 and
     dM = P/10 = pi/40, and h_s = h = 2 leaves +-2 dM."""
-    left, right = growth.advances(way(hertz, (1.0, 1.0), (1.1, 0.9)), 2.0, 1.0, 1.0)
+    left, right = plain(growth.advances)(way(hertz, (1.0, 1.0), (1.1, 0.9)), 2.0, 1.0, 1.0)
     assert (left, right) == pytest.approx((math.pi / 20, -math.pi / 20), rel=1e-12)
-    grown = growth.advances(way(hertz, (1.0, 1.0), (1.1, 1.1)), 2.0, 1.0, 1.0)
+    grown = plain(growth.advances)(way(hertz, (1.0, 1.0), (1.1, 1.1)), 2.0, 1.0, 1.0)
     assert grown == pytest.approx((0.21 * math.pi / 4,) * 2, rel=1e-12)

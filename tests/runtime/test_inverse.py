@@ -7,13 +7,12 @@ import pytest
 
 from generated.runtime import inverse
 from generated.runtime.forward import each_contact, each_contact_at_tilt
-from generated.runtime.kernels import BREAKS, LOOP, SLOPE, STATE, Law, handed, kernel, opened
+from generated.runtime.kernels import Body, Law, loop, opened
 from tests.runtime.laws import Case, flat_rounded, hertz, solved, wedge
 
 # ---------------------------------------------------------------- a cylinder cut off at x = -1, 1
 
 
-@kernel(STATE)
 def _cut_state(a, c, own):
     h = a + c
     if not h > 0:
@@ -24,21 +23,10 @@ def _cut_state(a, c, own):
     return load, load * (a - c) / 2, (a - c) / 2, K, K
 
 
-@kernel(SLOPE)
-def _cut_slope(x, own):
-    return x, 1.0
+cut = Case(Body(__name__, *hertz.functions._replace(state=_cut_state)), np.ones(1))
 
 
-@kernel(BREAKS)
-def _no_breaks(own):
-    return np.empty(0)
-
-
-_CUT = Law(hertz.functions.pressure, _cut_state, _cut_slope, hertz.functions.series, _no_breaks)
-cut = Case(handed(_CUT), _CUT, np.ones(2))
-
-
-@kernel(LOOP)
+@loop
 def _each_level(law, given, own, out):
     law = opened(law)
     for i in range(given.shape[0]):
@@ -46,7 +34,7 @@ def _each_level(law, given, own, out):
 
 
 def contact(case, P, second, loop=each_contact):
-    return solved(loop, case, np.stack(np.broadcast_arrays(P, second), axis=1), 3).T
+    return solved(loop, case, np.stack(np.broadcast_arrays(P, second, 1.0), axis=1), 3).T
 
 
 def at_tilt(case, P, alpha):
@@ -54,7 +42,7 @@ def at_tilt(case, P, alpha):
 
 
 def level(case, *tilts):
-    return contact(case, tilts, 0.0, _each_level)[0]
+    return solved(_each_level, case, np.array(tilts)[:, None], 1)[:, 0]
 
 
 def spread(low, high, count=200, seed=0):

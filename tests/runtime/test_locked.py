@@ -7,7 +7,7 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 
 import generated.hertz as cylinder
-from generated.runtime.kernels import LOOP, kernel, opened
+from generated.runtime.kernels import loop, opened
 from generated.runtime.slip.locked import holds_load
 from generated.runtime.slip.zone import ends_of
 from generated.runtime.types import FULL_STICK, LARGE, MODERATE
@@ -18,7 +18,7 @@ F = 0.5
 GIVEN = {"f": F, "E_star": 1.0, "R": 1.0}
 
 
-@kernel(LOOP)
+@loop
 def _each(law, given, own, out):
     """given: a cycle, its regime and Q; out: whether the zone carries Q."""
     law = opened(law)

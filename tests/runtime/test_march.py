@@ -8,7 +8,7 @@ import pytest
 from generated.runtime.slip import march as kernels
 from generated.runtime.types import Regime
 
-from .laws import flat_rounded, hertz, state, wedge, zone
+from .laws import hertz, state, wedge, zone
 from .test_series import patch
 
 F = 0.5
@@ -18,10 +18,10 @@ UP, DOWN = np.arange(-3, 5), np.arange(5, 13)
 WHOLE = np.append(T, 2 * np.pi)
 
 
-def march(case, P, M, Q, sigma, order=0):
+def march(case, P, M, Q, sigma):
     """a, c, m, n, left, right, regime, a column an instant."""
     loads = np.broadcast_arrays(*np.atleast_1d(P, M, Q, sigma))
-    given, out = np.concatenate([[F, order], *loads])[None], np.empty((1, 7 * loads[0].size))
+    given, out = np.concatenate([[F], *loads])[None], np.empty((1, 7 * loads[0].size))
     kernels.each_march(case.law, given, case.own[None], out)
     return out.reshape(-1, 7).T
 
@@ -85,27 +85,8 @@ def test_large_tension_slips_apart(case, tension, normal):
     assert np.all(np.diff(found[2, UP]) < 0) and np.all(np.diff(found[3, DOWN]) < 0)
 
 
-@pytest.mark.parametrize("tension", [0.5, 3.0])
-def test_series_come_closer_order_by_order(tension):
-    given = loads(wedge, tension=tension, normal=0.002)
-    exact = march(wedge, *given)
-    off = []
-    for order in (1, 2, 3):
-        found = march(wedge, *given, order=order)
-        assert np.array_equal(found[4:], exact[4:])
-        off.append(np.max(np.abs(found[2:4] - exact[2:4])))
-    assert off[0] < 0.3 and off[1] < off[0] / 2 and off[2] < off[1] / 2
-
-
-def test_a_series_that_is_not_known_is_none():
-    found = march(flat_rounded, 0.5, 0.0, 0.02 * np.sin(T), 0.0, order=2)
-    assert refused(found, Regime.NONE)
-    assert np.all(np.isfinite(march(flat_rounded, 0.5, 0.0, 0.02 * np.sin(T), 0.0, order=1)))
-
-
-@pytest.mark.parametrize("order", [0, 2])
-def test_no_change_is_full_stick(order):
-    found = march(wedge, 1.0, 0.1, 0.1, np.zeros(4), order=order)
+def test_no_change_is_full_stick():
+    found = march(wedge, 1.0, 0.1, 0.1, np.zeros(4))
     assert np.all(found[6] == Regime.FULL_STICK)
     assert np.array_equal(found[2:4], found[:2]) and not np.any(found[4:6])
 
@@ -139,18 +120,17 @@ def test_rounding_of_loads_that_do_not_change_is_nothing():
     assert found == pytest.approx(clean, rel=1e-12)
 
 
-@pytest.mark.parametrize("order", [0, 2])
 @pytest.mark.parametrize("tension", [1.0021, 1.02, 1.08])
-def test_nothing_is_told_of_a_cycle_in_which_slip_turns_round(tension, order):
+def test_nothing_is_told_of_a_cycle_in_which_slip_turns_round(tension):
     """Wedge, dQ = 0.3 f P: at the start of a half-cycle the right edge is not at friction.  The
-    zone at its end is known where forward slip overtakes it, and not by series."""
+    zone at its end is known where forward slip overtakes it."""
     way = -np.cos(np.linspace(0, 2 * np.pi, 41)) / 2
     Q, sigma = 0.15 * way, tension * 8 * 0.15 / (2 * np.pi) * way
-    found = march(wedge, 1.0, 0.0, Q, sigma, order)
+    found = march(wedge, 1.0, 0.0, Q, sigma)
     between = np.abs(way) < 0.5
     assert np.all(found[6, between] == Regime.MIXED)
     assert np.all(np.isnan(found[2, between])) and not np.any(found[4:6, between])
-    assert np.isfinite(found[2, [0, 20]]).all() == (tension < 1.01 and order == 0)
+    assert np.isfinite(found[2, [0, 20]]).all() == (tension < 1.01)
     assert np.all(found[6] == Regime.MIXED)
 
 
@@ -195,12 +175,11 @@ def test_loads_that_turn_inside_a_half_cycle():
     assert refused(march(wedge, P, M, Q, sigma), Regime.OUT_OF_PHASE)
 
 
-@pytest.mark.parametrize("order", [0, 1])
-def test_shear_at_friction_slides(order):
+def test_shear_at_friction_slides():
     """f P0 (.9, 1, 1.1, ...), though dQ < 2 f P0; and one instant at the limit."""
     part = np.array([0.9, 1, 1.1, 1.2, 1.3, 1.2, 1.1, 1])
-    assert refused(march(hertz, 0.3, 0.0, F * 0.3 * part, 0.0, order), Regime.SLIDING)
-    slides = march(hertz, 0.3, 0.0, -F * 0.3 * np.sin(T), 0.0, order)
+    assert refused(march(hertz, 0.3, 0.0, F * 0.3 * part, 0.0), Regime.SLIDING)
+    slides = march(hertz, 0.3, 0.0, -F * 0.3 * np.sin(T), 0.0)
     assert refused(slides, Regime.SLIDING)
 
 

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
 from generated.runtime.inverse import contact_at_tilt
-from generated.runtime.kernels import LOOP, kernel, opened
+from generated.runtime.kernels import loop, opened
 from generated.runtime.slip.march import large_zone
 from generated.runtime.slip.mixed import mixed_zone
 
@@ -20,7 +20,7 @@ from .laws import solved, state
 F = 0.5
 
 
-@kernel(LOOP)
+@loop
 def each_zone(law, given, own, out):
     """given: a, c, dQ, dsigma; m and n of what turns round, the moderate zone, the large one."""
     law = opened(law)

@@ -5,77 +5,56 @@ import math
 import numpy as np
 import pytest
 
-from generated.runtime.history import path as paths
-from generated.runtime.kernels import LOOP, kernel, opened
-
-from .laws import hertz, solved, wedge
+from generated import hertz, wedge
+from generated.runtime.history import path as of
 
 F, REACH = 0.5, 0.1
-MOST = 400
-P, M, Q, SIGMA, A, C, INSTANT = range(7)
+HERTZ, WEDGE = (hertz._BODY, {"R": 1.0}), (wedge._BODY, {"phi": 1.0})
 
 
-@kernel(LOOP)
-def _each_path(law, given, own, out):
-    """given: the fewest steps, the last one over the others, and loads; out: how many rows, and
-    they."""
-    law = opened(law)
-    for i in range(given.shape[0]):
-        loads = given[i, 2:].copy().reshape((4, (given.shape[1] - 2) // 4))
-        rows = paths.path(law, own[i], loads, F, REACH, int(given[i, 0]), given[i, 1])
-        out[i, 0] = rows.shape[0]
-        for k in range(rows.shape[0]):
-            for j in range(7):
-                out[i, 1 + 7 * k + j] = rows[k, j]
-
-
-def path(case, *loads, least=1, short=0.0):
-    loads = np.ravel(np.broadcast_arrays(*np.atleast_1d(*loads)))
-    (found,) = solved(_each_path, case, [[least, short, *loads]], 1 + 7 * MOST)
-    return found[1 : 1 + 7 * int(found[0])].reshape(-1, 7)
+def path(case, *loads, least=1, short_end=False):
+    return of.path(*case, F, np.array(np.broadcast_arrays(*loads)), REACH, least, short_end)
 
 
 def test_between_instants_loads_go_straight():
-    """The shear rises at the first instant from none; rows in between are of none."""
-    rows = path(hertz, 0.5, 0.1, [0.1, 0.2, -0.1], 0.0, least=2)
-    assert rows[0, Q] == 0 and rows[rows[:, INSTANT] >= 0, Q].tolist() == [0.1, 0.2, -0.1]
-    assert rows[rows[:, INSTANT] >= 0, INSTANT].tolist() == [0, 1, 2]
-    assert np.all(rows[:, P] == 0.5)
+    """The shear rises at the first instant from none; a = c = 2 sqrt(P/pi), moved by -2 M/P."""
+    way = path(HERTZ, [0.5] * 3, [0.1] * 3, [0.1, 0.2, -0.1], [0.0] * 3, least=2)
+    assert way.Q[0] == 0 and way.Q[way.instant >= 0].tolist() == [0.1, 0.2, -0.1]
+    assert way.instant[way.instant >= 0].tolist() == [0, 1, 2]
     half = 2 * math.sqrt(0.5 / math.pi)
-    assert rows[:, A] == pytest.approx(half + 0.2, rel=1e-12)
-    assert rows[:, C] == pytest.approx(half - 0.2, rel=1e-12)
+    assert way.a == pytest.approx(half + 0.2, rel=1e-12) and np.ptp(way.a) == 0
+    assert way.c == pytest.approx(half - 0.2, rel=1e-12)
 
 
 def test_no_edge_moves_far_in_a_step():
-    rows = path(wedge, [1.0, 2.0, 0.5], [0.0, 0.3, 0.0], 0.1, 0.0)
-    widest = np.max(rows[:, A] + rows[:, C])
-    assert np.max(abs(np.diff(rows[:, [A, C]], axis=0))) < 1.5 * REACH * widest
-    assert rows[:, [A, C]].prod(axis=1) == pytest.approx(rows[:, P] ** 2, rel=1e-12)
+    """On a wedge a c = P**2."""
+    way = path(WEDGE, [1.0, 2.0, 0.5], [0.0, 0.3, 0.0], [0.1] * 3, [0.0] * 3)
+    longest = max(np.max(abs(np.diff(way.a))), np.max(abs(np.diff(way.c))))
+    assert longest < 1.5 * REACH * np.max(way.a + way.c)
+    assert way.a * way.c == pytest.approx(way.P**2, rel=1e-12)
 
 
 def test_a_step_ends_where_shear_comes_to_friction_or_leaves_it():
     """f P = 1/4, at a half of the way up and at 5/8 of the way down."""
-    rows = path(hertz, 0.5, 0.0, [0.0, 0.5, 0.1], 0.0)
-    assert np.count_nonzero(abs(rows[:, Q] - 0.25) < 1e-15) == 2
+    way = path(HERTZ, [0.5] * 3, [0.0] * 3, [0.0, 0.5, 0.1], [0.0] * 3)
+    assert np.count_nonzero(abs(way.Q - 0.25) < 1e-15) == 2
 
 
-@pytest.mark.parametrize("short", [0.05, 0.5])
-def test_the_last_step_may_be_short(short):
-    rows = path(hertz, 0.5, 0.0, [0.0, 0.2], 0.0, least=2, short=short)
-    steps = np.diff(rows[-4:, Q])
-    assert steps[-1] / steps[0] == pytest.approx(short, rel=1e-9)
+def test_the_last_step_is_short():
+    way = path(HERTZ, [0.5] * 2, [0.0] * 2, [0.0, 0.2], [0.0] * 2, least=2, short_end=True)
+    steps = np.diff(way.Q[-4:])
+    assert steps[-1] / steps[0] == pytest.approx(0.01, rel=1e-9)
 
 
 def test_a_contact_that_comes_back_begins_small():
-    rows = path(hertz, [1.0, -1.0, 1.0], 0.0, 0.0, 0.0)
-    back = np.flatnonzero(np.isfinite(rows[:, A]))
-    first = back[np.flatnonzero(np.diff(back) > 1)[0] + 1]
-    width = rows[first, A] + rows[first, C]
-    assert width < 2 * paths.SMALL * (rows[-1, A] + rows[-1, C])
-    assert np.isfinite(rows[first, Q])
+    way = path(HERTZ, [1.0, -1.0, 1.0], [0.0] * 3, [0.0] * 3, [0.0] * 3)
+    touching = np.flatnonzero(np.isfinite(way.a))
+    first = touching[np.flatnonzero(np.diff(touching) > 1)[0] + 1]
+    assert way.a[first] + way.c[first] < 0.04 * (way.a[-1] + way.c[-1])
+    assert np.isfinite(way.Q[first])
 
 
 def test_one_that_rolls_in_from_afar_has_a_shear_that_is_not_known():
-    """P stays away from nothing while M comes back from where there is no contact."""
-    rows = path(hertz, 1.0, [0.0, math.nan, 0.0], 0.0, 0.0)
-    assert np.any(np.isnan(rows[:, A])) or np.any(np.isnan(rows[:, Q]))
+    """P = 0 at M = 0.1: the load acts at -M/P, far away."""
+    way = path(HERTZ, [1.0, 0.0, 1.0], [0.1] * 3, [0.0] * 3, [0.0] * 3)
+    assert np.any(np.isnan(way.a)) and np.any(np.isnan(way.Q))

@@ -4,11 +4,10 @@ import math
 
 import pytest
 
-from generated.runtime.search import between, by_distance
-from generated.runtime.search import narrowed as compiled
+from generated.runtime import search as of
+from tests.runtime.laws import plain
 
-narrowed = getattr(compiled, "py_func", compiled)
-"""In plain Python: a compiled kernel that takes a named tuple cannot be called from Python."""
+between, by_distance, narrowed = map(plain, (of.between, of.by_distance, of.narrowed))
 
 
 def steps(search, *values):

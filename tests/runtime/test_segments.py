@@ -117,15 +117,11 @@ def test_the_pressure_of_a_part_between_kinks() -> None:
         assert worst(cases()) < 3e-15
 
 
-@pytest.mark.parametrize("name", ["second_term", "third_term"])
-def test_the_next_terms_of_the_pressure(name: str) -> None:
-    rng, function = Random(4), getattr(segments, name)
+def test_the_second_term_of_the_pressure() -> None:
+    rng, function = Random(4), segments.second_term
 
     def antiderivative(v: mpf) -> mpf:
-        square, tangent = v / 2 - mpmath.sin(2 * v) / 4, mpmath.tan(v)
-        if name == "second_term":
-            return square + 2 * (tangent - v)
-        return 3 * square + 12 * (tangent - v) + 8 * (tangent**3 / 3 - tangent + v)
+        return v / 2 - mpmath.sin(2 * v) / 4 + 2 * (mpmath.tan(v) - v)
 
     def cases() -> Iterator[tuple[float, mpf]]:
         for number in range(1000):
@@ -137,8 +133,7 @@ def test_the_next_terms_of_the_pressure(name: str) -> None:
 
     with mpmath.workdps(DIGITS):
         assert worst(cases()) < 3e-15
-    with np.errstate(over="ignore"):
-        assert function(0.0, 0.0, 0.0) == function(0.7, 0.6, 0.0) == 0
+    assert function(0.0, 0.0, 0.0) == function(0.7, 0.6, 0.0) == 0
 
 
 def test_nothing_presses_at_the_edges_and_beyond() -> None:

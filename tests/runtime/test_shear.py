@@ -22,7 +22,8 @@ f = 0.5
 def asked(x, cycle, zone):
     """Rows of the loop kernels, one for each place."""
     x = np.atleast_1d(x)
-    return np.column_stack([x, np.tile([*cycle, *zone], (x.size, 1))])
+    *cycle, friction = cycle
+    return np.column_stack([x, np.tile([*cycle, *zone, friction, 1.0], (x.size, 1))])
 
 
 def change(case, x, cycle, zone):
@@ -36,7 +37,8 @@ def slip(case, x, cycle, zone):
 def pressures(case, cycle, x):
     a1, c1, a2, c2 = cycle[:4]
     of = case.functions.pressure
-    return of(x, a1, c1, case.own) + of(x, a2, c2, case.own)
+    with np.errstate(invalid="ignore"):
+        return of(x, a1, c1, case.own) + of(x, a2, c2, case.own)
 
 
 def cuts(side, case, cycle, end):
@@ -198,7 +200,9 @@ LARGE_CYCLE = (1.2, 1.0, 1.2, 1.0, 0.3, 0.8, f)
 def sheared(x, fall, zones):
     a, c, _, _, dQ, dsigma, _ = LARGE_CYCLE
     loads = (a, c, dQ / 2, dsigma / 2, *fall, f, *zones[0], *zones[1])
-    rows = np.column_stack([x, np.tile(loads, (len(x), 1))])
+    *loads, friction = loads[:7], loads[7:], loads[6]
+    row = [*loads[0][:6], *loads[1], friction, 1.0]
+    rows = np.column_stack([x, np.tile(row, (len(x), 1))])
     return solved(shear.each_shear, hertz, rows, 1)[:, 0]
 
 

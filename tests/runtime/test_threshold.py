@@ -14,11 +14,11 @@ EACH = pytest.mark.parametrize("case", [hertz, wedge, flat_rounded], ids=["hertz
 
 
 def threshold(case, *cycle):
-    return solved(each_tension_threshold, case, [cycle])[0]
+    return solved(each_tension_threshold, case, [(*cycle, 1.0)])[0]
 
 
 def closing(case, *cycle):
-    return solved(each_closing_tension, case, [cycle])[0]
+    return solved(each_closing_tension, case, [(*cycle, 1.0)])[0]
 
 
 def test_of_a_cylinder_by_hand():

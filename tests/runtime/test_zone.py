@@ -60,5 +60,5 @@ def test_mixed_cycles_are_left_unknown_unless_asked_for():
     rows = [(1, 1, 1, 1, 0.1, 0.13, 0.5)]
     ((m, n, regime),) = zone(hertz, *rows)
     assert regime == MIXED and np.isnan(m) and np.isnan(n)
-    ((m, n, regime),) = solved(mixed.each_stick_zone, hertz, rows, 3)
+    ((m, n, regime),) = solved(mixed.each_stick_zone, hertz, [(*row, 1.0) for row in rows], 3)
     assert regime in (MIXED, UNSOLVED) and np.isfinite(m) == (regime == MIXED)

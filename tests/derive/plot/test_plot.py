@@ -271,7 +271,7 @@ def test_a_sweep_needs_the_tension_where_its_sign_decides() -> None:
 def test_boundaries_are_the_zone_that_is_given() -> None:
     t, marched = cycle(LARGE_PULL)
     series = hertz.march(
-        P, M, *(of * -np.cos(2 * np.pi * t) / 2 for of in (DQ, LARGE_PULL)), **FRICTION, order=1
+        P, M, *(of * -np.cos(2 * np.pi * t) / 2 for of in (DQ, LARGE_PULL)), **FRICTION
     )
     axes = plot.stick_slip(marched, t)
     plot.boundaries(axes, t, series, "order 1", length=plot.unit(STATE.a, "m"))
