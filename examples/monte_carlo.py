@@ -29,16 +29,16 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import dask
 import dask.array as da
 import numpy as np
+from dask.config import set as dask_settings
 from distributed import Client, LocalCluster, as_completed
 from rich.progress import Progress
 
 import generated
 from generated import wedge
 
-WEDGE = {"E_star": 60e9, "phi": 0.05}  # Pa, rad
+E_STAR, PHI = 60e9, 0.05  # Pa, rad
 DQ, DSIGMA = 3e5, 400e6  # changes in shear load [N/m] and bulk tension [Pa] in a half-cycle
 
 SCATTER: Mapping[str, Callable[[np.random.Generator, int], Any]] = {
@@ -85,8 +85,8 @@ def drawn(name: str, seed: int, start: int, stop: int) -> Any:
 
 def slip_zones(P: Any, M: Any, f: Any) -> tuple[Any, Any, Any]:
     """Slip zones at the left and the right edge [um], and the regime."""
-    state = wedge.contact(P, M, **WEDGE)
-    zone = wedge.stick_zone(state, state, DQ, DSIGMA, f=f, **WEDGE)
+    state = wedge.contact(P, M, E_star=E_STAR, phi=PHI)
+    zone = wedge.stick_zone(state, state, DQ, DSIGMA, f=f, E_star=E_STAR, phi=PHI)
     return 1e6 * (state.a - zone.m), 1e6 * (state.c - zone.n), zone.regime
 
 
@@ -110,7 +110,8 @@ def summed(client: Client, samples: int, chunk: int, seed: int) -> Counts:
     """Counts of all samples; only a few portions are computed at once, however many there are."""
     starts = range(0, samples, PORTION * chunk)
     portions = (counted(s, min(s + PORTION * chunk, samples), chunk, seed) for s in starts)
-    ahead = 1 + sum(client.nthreads().values())
+    threads: Any = client.nthreads()
+    ahead = 1 + sum(threads.values())
     running = as_completed(map(client.compute, islice(portions, ahead)))
     total = np.zeros(2 * BINS + len(wedge.Regime), dtype=np.int64)
     with Progress() as bar:
@@ -163,7 +164,7 @@ def connected(scheduler: str | None, workers: int | None, wait: int) -> Iterator
         local: dict[str, Any] = {"n_workers": workers, "threads_per_worker": 1}
         local["dashboard_address"] = "127.0.0.1:0"  # any free port, so that runs do not collide
         local["silence_logs"] = logging.CRITICAL  # errors are raised in this process
-        with dask.config.set(SHORT), LocalCluster(**local) as cluster, Client(cluster) as client:
+        with dask_settings(SHORT), LocalCluster(**local) as cluster, Client(cluster) as client:
             yield client
         return
     try:

@@ -155,21 +155,6 @@ def printed(
     return Ends(contact.a - d_left, contact.c - d_right)
 
 
-def printed_march(body: ModuleType, of: Cycle, *, f: float, **constants: float) -> Ends:
-    """The stick zone by the same equations at every instant of a cycle.
-
-    The changes at an instant are counted from the last instant at which slip began.
-    """
-    at = body.contact(of.P, of.M, **constants)
-    middle = of.t.size // 2
-    start = np.where(np.arange(of.t.size) <= middle, 0, middle)
-    rising = np.where(start == 0, 1, -1)
-    changes = (rising * (load - load[start]) for load in (of.Q, of.sigma))
-    moved = {"da": at.a - at.a[start], "dc": at.c - at.c[start]}
-    ends = printed(body, at, *changes, f=f, **moved, **constants)
-    return Ends(ends.m, ends.n, rising, rising)
-
-
 KINDS = ("printed", "order 1", "order 2")
 """Series that the figures compare with the exact stick zone."""
 
@@ -196,6 +181,21 @@ def series(
     return zones
 
 
+def series_march(body: ModuleType, of: Cycle, *, f: float, **constants: float) -> dict[str, Ends]:
+    """The stick zone by each of the series at every instant of a cycle.
+
+    The changes at an instant are counted from the last instant at which slip began.
+    """
+    at = body.contact(of.P, of.M, **constants)
+    middle = of.t.size // 2
+    start = np.where(np.arange(of.t.size) <= middle, 0, middle)
+    rising = np.where(start == 0, 1, -1)
+    changes = (rising * (load - load[start]) for load in (of.Q, of.sigma))
+    moved = {"da": at.a - at.a[start], "dc": at.c - at.c[start]}
+    found = series(body, at, *changes, f=f, **moved, **constants)
+    return {kind: Ends(zone.m, zone.n, rising, rising) for kind, zone in found.items()}
+
+
 # ------------------------------------------------------------------ figures
 
 
@@ -208,12 +208,7 @@ def march_figure(
     """
     exact = body.march(*of.loads, f=f, **constants)
     plot.stick_slip(exact, of.t, axes=axes, length=length)
-    lines = {
-        "printed": printed_march(body, of, f=f, **constants),
-        "order 1": body.march(*of.loads, f=f, order=1, **constants),
-        "order 2": body.march(*of.loads, f=f, order=2, **constants),
-    }
-    for kind, zones in lines.items():
+    for kind, zones in series_march(body, of, f=f, **constants).items():
         plot.boundaries(axes, of.t, zones, kind, length=length)
     axes.set_xlabel("$t/T$")
     return exact

@@ -16,7 +16,7 @@ from nbclient import NotebookClient
 from nbformat import NotebookNode
 
 from derive.files import write_whole
-from derive.runtime.words import COMPILING
+from generated.runtime.kernels import COMPILING
 
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parent

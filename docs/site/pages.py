@@ -91,6 +91,7 @@ def drawn(text: str, folder: Path) -> str:
     from derive import plot
 
     names: dict[str, object] = {}
+    pyplot.close("all")  # figures of the caller are not of this page
 
     def with_picture(match: re.Match[str]) -> str:
         exec(match[1], names)  # noqa: S102  (our own text)
