@@ -656,7 +656,7 @@ def slip_error(
     """Estimated error of the series for the slip zones: the size of the first term left out.
 
         order 1: |d(2) - d(1)|
-        order 2: (d(2) - d(1))**2/d(1), as if the terms fell in the same ratio
+        order 2: (d(2) - d(1))**2/max(d(1), d(2)), as if the terms fell in the same ratio
 
     Parameters
     ----------

@@ -233,13 +233,14 @@ def slip_zones(body: Body, own: Own, *arguments: Values, order: int) -> Edges:
 
 
 def slip_error(body: Body, own: Own, *arguments: Values, order: int) -> Edges:
-    """The estimated error of the slip zones: the second term, or its square over the first."""
+    """The estimated error of the slip zones: the second term, or its square over the zone."""
     demand_order(order)
     first, second = (found := _series(body, own, *arguments))[:2], found[2:]
     with np.errstate(all="ignore"):
         errors = [abs(two - one) for one, two in zip(first, second, strict=True)]
         if order == 2:
-            errors = [error * error / one for error, one in zip(errors, first, strict=True)]
+            longer = map(np.fmax, first, second)  # the first order vanishes with K_T
+            errors = [error * error / d for error, d in zip(errors, longer, strict=True)]
     return Edges(*errors)
 
 
