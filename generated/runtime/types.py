@@ -245,8 +245,3 @@ class SteadyCycle(NamedTuple):
     work_error: Array
     slip_error: Array
     shear_error: Array
-
-
-FEATURES, ZONE = len(History._fields) - 2, len(SteadyCycle._fields) - 2
-"""Numbers of results besides those at the points, which are q and slip.  Kernels return them in the
-order of the fields, those at the points last."""

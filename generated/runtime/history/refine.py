@@ -244,7 +244,7 @@ def steady_cycle(body: Body, own: Own, f: float, loads: Array, x: Array, tol: fl
     touches = touching(body, own, *loads[:2])[0] > -math.inf
     if not (np.all(touches) and np.all(np.isfinite(loads)) and f > 0):
         return SteadyCycle(nan, nan, Regime.NONE, none, none, nan, 0, nan, nan, nan, nan, nan)
-    found, errors = _refined(partial(_cycle_on, body, own, f, loads), partial(_compare_rounds), tol)
+    found, errors = _refined(partial(_cycle_on, body, own, f, loads), _compare_rounds, tol)
     zone = found.m, found.n, found.regime
     q = slip = none
     if found.mesh is not None:
