@@ -14,8 +14,9 @@ import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle, pieces
+from .runtime.body import Body
 from .runtime.history import public
-from .runtime.kernels import Body, kernel
+from .runtime.kernels import kernel
 from .runtime.pieces import curve_of
 from .runtime.types import (
     Array,

@@ -27,9 +27,10 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import evaluated
+from .runtime.body import Body
 from .runtime.elementary import LEAST, MOST
 from .runtime.history import public
-from .runtime.kernels import Body, shared, where
+from .runtime.kernels import shared, where
 from .runtime.segments import edge_angle, end_pressure, involute, second_term, segment
 from .runtime.types import (
     Array,

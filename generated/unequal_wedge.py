@@ -15,9 +15,10 @@ import numpy as np
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import evaluated
+from .runtime.body import Body
 from .runtime.elementary import LEAST, MOST, kink_logarithm
 from .runtime.history import public
-from .runtime.kernels import Body, shared, where
+from .runtime.kernels import shared, where
 from .runtime.types import (
     Array,
     Contact,

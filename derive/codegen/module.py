@@ -35,9 +35,10 @@ _KINDS = (
 _HELPERS = {
     "": ("cycle", "pieces"),
     "arrays": ("evaluated",),
+    "body": ("Body",),
     "elementary": ("LEAST", "MOST", "kink_logarithm"),
     "history": ("public",),
-    "kernels": ("Body", "kernel", "shared", "where"),
+    "kernels": ("kernel", "shared", "where"),
     "pieces": ("curve_of",),
     "segments": tuple({f.__name__ for f in FUNCTIONS} - {"kink_logarithm"}),
     "types": ("Array", "Values", *_KINDS),

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from .chunks import any_lazy, demand_array, is_lazy, over_chunks
-from .kernels import Body
+from .body import Body
 
 Numbers = dict[str, Any]
 

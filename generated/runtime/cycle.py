@@ -13,12 +13,12 @@ import numpy as np
 from .arrays import numbers_of, shape_of, solved
 from .chunks import any_lazy, over_chunks
 from .forward import each_contact, each_contact_at_tilt, each_pressure, each_series, each_state
-from .kernels import Body
+from .body import Body
 from .reasons import reason
-from .slip.march import each_march
-from .slip.mixed import each_stick_zone as each_stick_zone_with_mixed
+from .slip.march import marched
+from .slip.zone import each_stick_zone as each_stick_zone_with_mixed
 from .slip.series import each_slip_zones
-from .slip.shear import each_shear, each_shear_change, each_slip_range
+from .slip.shear import each_shear_change, each_slip_range, rises_and_falls
 from .slip.threshold import each_closing_tension, each_tension_threshold
 from .slip.zone import each_stick_zone
 from .types import Array, Contact, Edges, March, Regime, StickZone, Threshold, Values
@@ -271,7 +271,7 @@ def _at_places(
 ) -> Array:
     """Shear change or slip range; the stick zone is solved once per cycle for all places x."""
     zone = stick_zone(body, own, first, second, dQ, dsigma, f, E_star)
-    given = {"x": x, **_between(first, second, dQ=dQ, dsigma=dsigma), **zone._asdict()}
+    given = {**_between(first, second, dQ=dQ, dsigma=dsigma), **zone._asdict(), "x": x}
     return solved(loop, body, given, {"f": f, "E_star": E_star}, own)
 
 
@@ -288,16 +288,17 @@ def shear(
     dsigma: Values,
 ) -> Array:
     """The shear traction after a rise of the loads and a fall."""
-    given = {"x": x, **edges_of(contact, "contact"), "Q": Q, "sigma": sigma}
-    given |= {"dQ": dQ, "dsigma": dsigma}
-    numbers = numbers_of(given, {})
-    rise = stick_zone(
-        body, own, contact, contact, 2 * numbers["Q"], 2 * numbers["sigma"], f, E_star
-    )
-    fall = stick_zone(body, own, contact, contact, dQ, dsigma, f, E_star)
-    given |= {f"{name}_rise": value for name, value in rise._asdict().items()}
-    given |= {f"{name}_fall": value for name, value in fall._asdict().items()}
-    return solved(each_shear, body, given, {"f": f, "E_star": E_star}, own)
+    given = {**edges_of(contact, "contact"), "Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
+    a, c, Q, sigma, dQ, dsigma = numbers_of(given, {}).values()
+    rise, fall, zones, changes = (2 * Q, 2 * sigma), (dQ, dsigma), [], []
+    for loads in (rise, fall):
+        zone = stick_zone(body, own, contact, contact, *loads, f, E_star)
+        at = {**_between(contact, contact, dQ=loads[0], dsigma=loads[1]), **zone._asdict(), "x": x}
+        zones.append(zone)
+        changes.append(solved(each_shear_change, body, at, {"f": f, "E_star": E_star}, own))
+    with np.errstate(all="ignore"):
+        known = rises_and_falls((a, c), rise, zones[0], fall, zones[1])
+        return np.where(known, changes[0] / 2 - changes[1], np.nan)[()]
 
 
 # ---------------------------------------------------------------- a cycle through time
@@ -326,20 +327,11 @@ def march(
         raise ValueError(
             f"a cycle needs at least two instants along the last axis; got shape {shape}"
         )
-    *cycles, instants = shape
+    held = {name: _held(numbers[name], shape) for name in ("f", *own)}
+    f = held.pop("f")
     with np.errstate(all="ignore"):
         loads = [numbers[name] / numbers["E_star"] for name in ("P", "M", "Q", "sigma")]
-    count = math.prod(cycles)
-    whole = [np.broadcast_to(v, (*cycles, instants)).reshape(count, instants) for v in loads]
-    constants = [_constant(numbers[name], cycles, instants) for name in ("f", *own)]
-    given = np.hstack([constants[0], *whole])
-    own_rows = np.ascontiguousarray(np.hstack([np.empty((count, 0)), *constants[1:]]))
-    out = np.empty((count, 7 * instants))
-    each_march(body.law, given, own_rows, out)
-    fields = out.reshape(*cycles, instants, 7)
-    values = [fields[..., i].reshape(shape) for i in range(4)]
-    senses = [fields[..., i].astype(np.int64).reshape(shape) for i in range(4, 7)]
-    return March(*values, *senses)
+        return marched(body, held, f, *(np.broadcast_to(v, shape) for v in loads))
 
 
 def _march_chunk(body: Body, own: tuple[str, ...], numbers: dict[str, Any]) -> March:
@@ -347,14 +339,14 @@ def _march_chunk(body: Body, own: tuple[str, ...], numbers: dict[str, Any]) -> M
     return march(body, parameters, **numbers)
 
 
-def _constant(value: Any, cycles: list[int], instants: int) -> Any:
-    """The values of a constant, one per cycle, as a column.
+def _held(value: Any, shape: tuple[int, ...]) -> Any:
+    """The values of a constant, one per cycle, along an axis of length one.
 
     Raises ValueError if the constant changes with time.
     """
-    held = np.broadcast_to(value, (*cycles, instants)).reshape(math.prod(cycles), instants)
-    if np.any((held != held[:, :1]) & ~np.isnan(held)):
+    held = np.broadcast_to(value, shape)
+    if np.any((held != held[..., :1]) & ~np.isnan(held)):
         raise ValueError(
             "f, E_star and the body's parameters must not change along the last axis, which is time"
         )
-    return held[:, :1]
+    return held[..., :1]

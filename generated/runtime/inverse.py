@@ -50,6 +50,14 @@ MAX_EDGE_ROUNDING = 1e-2
 of the width."""
 
 
+class Curve(NamedTuple):
+    """The part of a body's `Law` that determines its contacts."""
+
+    state: Any
+    slope: Any
+    breaks: Any
+
+
 class Target(NamedTuple):
     """The target of the search for a contact, for E* = 1.
 
@@ -380,16 +388,32 @@ def _solved(law: Any, own: Any, target: Any) -> Any:
     return a, c, tilt
 
 
+def solve(
+    state: Any, slope: Any, breaks: Any, own: Any, load: float, given: float, held: bool
+) -> Any:
+    """The edges a, c and the tilt under a load; NaN if there is no contact.
+
+    Part of every `Law`, so that numba compiles it once and not again in each kernel that calls it.
+
+    state, slope, breaks  those of the law
+    given                 the centre of the load; the tilt if `held`
+    """
+    curve = Curve(state, slope, breaks)
+    if held:
+        return _solved(curve, own, Target(load, level(curve, own, given), given, True))
+    return _solved(curve, own, Target(load, given, 0.0, False))
+
+
 @kernel
 def contact(law: Any, own: Any, P: float, M: float) -> Any:
     """The edges a, c and the tilt under a load and a moment; NaN if there is no contact."""
     if not 0 < P < math.inf:
         return math.nan, math.nan, math.nan
-    return _solved(law, own, Target(P, -M / P, 0.0, False))
+    return law.solve(law.state, law.slope, law.breaks, own, P, -M / P, False)
 
 
 @kernel
 def contact_at_tilt(law: Any, own: Any, P: float, alpha: float) -> Any:
     """The edges a, c under a load at a given tilt; NaN if there is no contact."""
-    a, c, _ = _solved(law, own, Target(P, level(law, own, alpha), alpha, True))
+    a, c, _ = law.solve(law.state, law.slope, law.breaks, own, P, alpha, True)
     return a, c

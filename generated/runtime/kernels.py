@@ -15,7 +15,7 @@ import os
 import sys
 from collections.abc import Callable
 from contextlib import suppress
-from functools import cache, cached_property, update_wrapper, wraps
+from functools import cache, update_wrapper, wraps
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar, cast
 
@@ -39,7 +39,7 @@ DAMAGED = "a compiled solver on disk cannot be loaded; it is compiled anew"
 
 
 class Law(NamedTuple):
-    """The functions of a body that the kernels need, all for E* = 1; `own` holds its parameters.
+    """The functions that the kernels need of a body, all for E* = 1; `own` holds its parameters.
 
     pressure  (x, a, c, own) -> p; zero outside the contact, infinite only at a corner
     state     (a, c, own) -> load, moment, tilt, K_N at the left and the right edge; NaN where
@@ -47,6 +47,7 @@ class Law(NamedTuple):
     slope     (x, own) -> g'(x), g''(x); at a break those of the piece on its right
     series    (a, c, own) -> coefficients of s**(3/2) at the left and the right edge
     breaks    (own) -> points where the formula of the curve changes, from left to right
+    solve     inverse.solve, which finds the contact under given loads
     """
 
     pressure: Any
@@ -54,26 +55,7 @@ class Law(NamedTuple):
     slope: Any
     series: Any
     breaks: Any
-
-
-class Body:
-    """A body: its law, which is compiled when it is first used, and where it is defined.
-
-    module  name of the module that defines the body as _BODY
-    law     pressure, state, slope, series and breaks, as `Law` describes them
-    """
-
-    def __init__(self, module: str, *law: Callable[..., Any]) -> None:
-        self.__module__ = module
-        self.functions = Law(*law)
-
-    @cached_property
-    def law(self) -> Any:
-        """The law in the form in which Python passes it to a loop."""
-        return handed(self.functions)
-
-    def __reduce__(self) -> str:
-        return "_BODY"
+    solve: Any
 
 
 if COMPILED:
@@ -87,18 +69,21 @@ if COMPILED:
     whole: Any = types.int64
     vector: Any = types.Array(real, 1, "C")
     matrix: Any = types.Array(real, 2, "C")
-    SIGNATURES = Law(
-        pressure=real(real, real, real, vector),
-        state=types.UniTuple(real, 5)(real, real, vector),
-        slope=types.UniTuple(real, 2)(real, vector),
-        series=types.UniTuple(real, 2)(real, real, vector),
-        breaks=vector(vector),
-    )
     function = types.FunctionType
 
     def results(count: int) -> Any:
         """The type of a tuple of `count` real numbers."""
         return types.UniTuple(real, count)
+
+    _CURVE = results(5)(real, real, vector), results(2)(real, vector), vector(vector)
+    SIGNATURES = Law(
+        pressure=real(real, real, real, vector),
+        state=_CURVE[0],
+        slope=_CURVE[1],
+        series=results(2)(real, real, vector),
+        breaks=_CURVE[2],
+        solve=results(3)(*map(function, _CURVE), vector, real, real, types.boolean),
+    )
 
     # Compiled code is kept on disk only next to files, not in an archive.
     _KEPT = Path(__file__).is_file()
@@ -232,19 +217,23 @@ if COMPILED:
     @kernel
     def opened(law: Any) -> Law:
         """The law that Python holds, as kernels take it."""
-        return Law(law.pressure, law.state, law.slope, law.series, law.breaks)
+        return Law(law.pressure, law.state, law.slope, law.series, law.breaks, law.solve)
 
-    def _hold(pressure: Any, state: Any, slope: Any, series: Any, breaks: Any) -> Any:
-        return _Held(pressure, state, slope, series, breaks)
+    def _hold(
+        pressure: Any, state: Any, slope: Any, series: Any, breaks: Any, solve: Any
+    ) -> Any:
+        return _Held(pressure, state, slope, series, breaks, solve)
 
     _HOLD = _made(_hold, called=True)
 
+    @cache
+    def _value(function: Callable[..., Any], signature: Any) -> Any:
+        """A function that is passed to another one, compiled if necessary."""
+        return _compiled(_made(function, value=True), signature)
+
     def handed(law: Law) -> Any:
         """A law in the form in which Python passes it to a loop; compiled if necessary."""
-        functions = [
-            _compiled(_made(f, value=True), signature)
-            for f, signature in zip(law, SIGNATURES, strict=True)
-        ]
+        functions = map(_value, law, SIGNATURES)
         if not _HOLD.signatures:
             _compiled(_HOLD, _HELD(*_FUNCTIONS))
         return _HOLD(*functions)

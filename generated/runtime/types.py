@@ -96,11 +96,6 @@ class Regime(IntEnum):
     NO_STICK = 10
 
 
-NONE, MODERATE, LARGE, MIXED, SLIDING, FULL_STICK, UNSOLVED = (float(code) for code in range(7))
-OUT_OF_PHASE, NOT_CLOSED, COMPUTED, NO_STICK = (float(code) for code in range(7, 11))
-"""The codes as the numbers that kernels store."""
-
-
 class StickZone(NamedTuple):
     """The zone [-m, n] that sticks throughout the cycle, and how the cycle slips.
 

@@ -12,7 +12,8 @@ import numpy as np
 import generated.flat_rounded
 import generated.hertz
 import generated.wedge
-from generated.runtime.kernels import Body, Law
+from generated.runtime.body import Body
+from generated.runtime.kernels import Law
 from generated.runtime.slip.zone import each_stick_zone
 
 

@@ -26,7 +26,8 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from ..cycle import Own, pressure
-from ..kernels import Body, loop, opened
+from ..body import Body
+from ..kernels import loop, opened
 from ..types import Array
 
 CLOSEST = 0.02

@@ -42,7 +42,7 @@ Barber, Davies and Hills (2011) give P_E for convex loops.
 import numpy as np
 
 from ..cycle import Own, contact, contact_at_tilt
-from ..kernels import Body
+from ..body import Body
 from ..types import Array, Contact
 from .nearest import ROUNDING
 

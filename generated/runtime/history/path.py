@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..cycle import Own, contact
-from ..kernels import Body
+from ..body import Body
 from ..types import Array
 
 SMALL = 0.02

@@ -11,7 +11,7 @@ from threadpoolctl import ThreadpoolController
 from ..arrays import Numbers, numbers_of, shape_of
 from ..chunks import any_lazy
 from ..cycle import Own, march, stick_zone
-from ..kernels import Body
+from ..body import Body
 from ..types import Array, Contact, History, Regime, SteadyCycle, StickZone, Values
 from . import refine
 from .lazy import WHOLE, over_chunks

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..cycle import Own
-from ..kernels import Body
+from ..body import Body
 from ..types import Array, History, Regime, SteadyCycle
 from .elements import Elements, breaks_of, elements_of, mesh, pressures, value_at
 from .path import Path, path, touching

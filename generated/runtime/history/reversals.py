@@ -41,7 +41,8 @@ from typing import Any
 import numpy as np
 
 from ..cycle import Own, contact, contact_at_tilt, pressure
-from ..kernels import Body, kernel, loop, opened
+from ..body import Body
+from ..kernels import kernel, loop, opened
 from ..types import Array, History, Regime
 from .elements import breaks_of
 from .nearest import ROUNDING

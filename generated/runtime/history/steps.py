@@ -16,7 +16,7 @@ import math
 import numpy as np
 
 from ..cycle import Own
-from ..kernels import Body
+from ..body import Body
 from ..types import Array, Regime
 from .elements import Elements, full_stick, mean_pressures
 from .nearest import ROUNDING, nearest

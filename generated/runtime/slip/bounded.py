@@ -1,23 +1,30 @@
-r"""Slip zones next to a stick zone at both ends of which the shear traction stays bounded.
+r"""The stick zone between two slip zones in which slip grows in given directions.
 
-All cycles have dsigma >= 0, so that tension loads the left edge more; for dsigma < 0 the mirror
-image, x -> -x, is considered.  Slip leaves a change in shear r in both slip zones: on the left r =
-f (p1 + p2), and on the right r = kappa f (p1 + p2) minus the shear gained there since that zone
-last stuck (mixed.py).  Let h_s = m + n and let y be the distance from the stick zone.  With u =
-sqrt(y/(h_s + y)), the change in shear is bounded at both ends of [-m, n] if
+Let kappa be the direction of slip on the left, +1 or -1, and lamda that on the right.  The change
+in shear is kappa r and lamda r in the slip zones (quadrature.py), and bounded at both ends of the
+stick zone.  If both directions are forward, it is f (p_1 + p_2 - 2 p_s), and the stick zone is the
+contact, with the pressure p_s, at the mean load less dQ/(2 f) and the mean tilt less dsigma/(4 f).
 
-    left:   L = int_left r/u dy + int_right r u dy = dQ + pi h_s dsigma/8,
-    right:  R = int_left r u dy + int_right r/u dy = dQ - pi h_s dsigma/8.
+In general, let h_s = m + n, let y be the distance from the stick zone and u = sqrt(y/(h_s + y)).
+The change is bounded at both ends if
+
+    left:   L = kappa int_left r/u dy + lamda int_right r u dy = dQ + pi h_s dsigma/8,
+    right:  R = kappa int_left r u dy + lamda int_right r/u dy = dQ - pi h_s dsigma/8.
 
 Let C be the finite part of int r/(y w) dy, w = sqrt(y (h_s + y)), let D = int r/((h_s + y) w) dy,
-and let F be the residual of the right condition less that of the left one, divided by h_s.  The
-rates of the residuals are
+and let F be the residual of the right condition less that of the left one, divided by h_s.  Then
 
-    d right/dn =  F/2 + h_s (C_right + D_left)/2,    d right/dm =  F/2,
-    d left/dn  = -F/2,                               d left/dm  = -F/2 + h_s (C_left + D_right)/2.
+    d right/dn =  F/2 + h_s (lamda C_right + kappa D_left)/2,    d right/dm =  F/2,
+    d left/dm  = -F/2 + h_s (kappa C_left + lamda D_right)/2,    d left/dn  = -F/2.
+
+Newton's method starts from the leading order of both slip zones.  It fails beside kinks, where the
+width of the stick zone is then sought in a bracket: a wider stick zone corresponds to a smaller
+part of the loads.  No zone between slip in opposite directions is narrower than the width
+H = 8 dQ/(pi |dsigma|) at which slip reverses on one side.  If a zone of that width takes less than
+the given loads, slip has reversed.
 
 In the stick zone, at distances d and D from this end and the other one, a slip zone of length l
-causes
+changes the shear traction by
 
     dq = (sqrt(d D)/pi) int r/(w (y + d)) dy;
 
@@ -28,356 +35,251 @@ is subtracted and integrated exactly.
 import math
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from ..elementary import EPS
+from ..inverse import contact_at_tilt
 from ..kernels import kernel
 from ..search import between, narrowed
+from ..types import Regime
+from .cycles import drives
 from .newton import log_step, moved
-from .quadrature import slip_nodes
-from .tables import Table, tabled
+from .quadrature import RULES, slip_zone
 
-SMALL = 1e-9
-"""Newton's method ends after a step below this, relative to the slip zone, because the next step is
-below rounding."""
+NEWTON_RTOL = 1e-7
+"""Newton's method ends after a step below this: the next one would be its square.  Slip zones whose
+relative change from one rule to the next is below this are exact by the finer rule."""
 
-ROUGH = 1e-7
-"""The same for the coarsest rule, whose own error is larger."""
+MAX_STEPS = 40
+"""Largest number of steps of Newton's method."""
 
-STEPS = 40
-"""Largest number of Newton steps for one rule; a solution takes two to eight."""
+LONGEST_STEP = 2.0
+"""Longest step of Newton's method in the logarithm of a slip zone over the stick zone."""
 
-MET = 1e-7
-"""Largest residual of a solution, relative to the drive: at a break, steps may also become small
-without reaching a solution."""
+SHORTEST_PART = 1e-3
+"""Newton's method has failed if even this fraction of a step does not reduce the error."""
 
-LONGEST = 2.0
-"""Longest Newton step in the logarithm of a slip zone over the stick zone."""
-
-SHORTEST = 1e-3
-"""The method is given up if even this fraction of a step leads away from the solution."""
-
-LEAST_STUCK = 1e-3
-"""Narrowest stick zone that is sought, relative to the width at which slip would reverse."""
+NARROWEST = 1e-6
+"""The narrowest stick zone that is sought in a bracket, relative to the width."""
 
 NEAREST = 1e-9
-"""Finite parts omit nodes that are closer to the stick zone than this fraction of a slip zone."""
+"""Finite parts omit nodes that are closer to the stick zone than this part of a slip zone."""
 
 
-class Gain(NamedTuple):
-    """Shear traction gained since a point began to stick again.
+class Slipping(NamedTuple):
+    """A half-cycle whose edges slip in given directions.
 
-    table  the gain as a function of position
-    rubs   1 if the points beyond the table are at the friction limit, where the gain is r; else 0
+    kappa, lamda  directions of slip on the left and on the right, +1 or -1
+    a, c          edges of the smaller contact, to which slip zones extend
     """
 
-    table: Any
-    rubs: float
-
-
-class Friction(NamedTuple):
-    """The data that determine r, the traction left by slip.
-
-    pressure, own  of the body itself; x there is `sense` times x here
-    sense          1, or -1 for the mirror image
-    cycle          a1, c1, a2, c2, dQ, dsigma, f, as returned by `oriented`
-    cuts           points where r changes its formula
-    a, c           edges of the smaller contact, to which slip zones extend
-    da, dc         how much further out the edges of the larger contact are
-    kappa          direction of slip on the right
-    left, right    gains
-    """
-
-    pressure: Any
-    own: Any
-    sense: float
     cycle: Any
-    cuts: Any
+    kappa: float
+    lamda: float
     a: float
     c: float
-    da: float
-    dc: float
-    kappa: float
-    left: Any
-    right: Any
-
-
-class Zone(NamedTuple):
-    """A slip zone: its nodes y, their weights, r at the nodes, its length, and r at its start."""
-
-    y: Any
-    weight: Any
-    r: Any
-    length: float
-    at_start: float
-
-
-class Slip(NamedTuple):
-    """A stick zone [-m, n], the lengths of slip in the smaller contact, and both slip zones."""
-
-    m: float
-    n: float
-    d_left: float
-    d_right: float
-    left: Any
-    right: Any
-
-
-# ---------------------------------------------------------------- the traction left by slip
 
 
 @kernel
-def sense_of(cycle: Any) -> Any:
-    """1, or -1 if `oriented` returns the mirror image of a cycle."""
-    return -1.0 if cycle[5] < 0 else 1.0
+def slipping(cycle: Any, kappa: float, lamda: float) -> Slipping:
+    """A half-cycle with directions of slip."""
+    return Slipping(cycle, kappa, lamda, min(cycle.a_1, cycle.a_2), min(cycle.c_1, cycle.c_2))
 
 
 @kernel
-def oriented(cycle: Any) -> Any:
-    """The cycle or, if dsigma < 0, its mirror image, in which dsigma > 0."""
-    if not cycle[5] < 0:
-        return cycle
-    mirrored = cycle.copy()
-    mirrored[0], mirrored[1], mirrored[2], mirrored[3] = cycle[1], cycle[0], cycle[3], cycle[2]
-    mirrored[5] = -cycle[5]
-    return mirrored
-
-
-@kernel
-def no_gain() -> Any:
-    """The gain where points have slipped all the time."""
-    return Gain(Table(-math.inf, -math.inf, 0.0, np.zeros(1)), 0.0)
-
-
-@kernel
-def friction(law: Any, own: Any, cycle: Any, sense: float, kappa: float, also: float) -> Any:
-    """The friction of a cycle with dsigma >= 0.
-
-    also: one more point at which integrals are split.
-    """
-    a, c = min(cycle[0], cycle[2]), min(cycle[1], cycle[3])
-    da, dc = max(cycle[0], cycle[2]) - a, max(cycle[1], cycle[3]) - c
-    breaks, nothing = law.breaks(own), no_gain()
-    cuts = np.full(breaks.size + 1, also)
-    for i in range(breaks.size):
-        cuts[i] = sense * breaks[i]
-    return Friction(law.pressure, own, sense, cycle, cuts, a, c, da, dc, kappa, nothing, nothing)
-
-
-@kernel
-def pressure_at(of: Any, end: int, x: float) -> Any:
-    """p in the first (end = 0) or second (end = 2) contact; a corner's infinite p counts as 0."""
-    a, c = of.cycle[end], of.cycle[end + 1]
-    p = of.pressure(x, a, c, of.own) if of.sense > 0 else of.pressure(-x, c, a, of.own)
-    return p if p < math.inf else 0.0
-
-
-@kernel
-def friction_limits(of: Any, places: Any) -> Any:
-    """f (p1 + p2) at the given points; the infinite pressure of a corner counts as zero."""
-    pressure, own, sense = of.pressure, of.own, of.sense
-    alike = of.cycle[0] == of.cycle[2] and of.cycle[1] == of.cycle[3]
-    limits, f = np.zeros(places.size), of.cycle[6] * (2 if alike else 1)
-    for end in range(0, 2 if alike else 4, 2):
-        a, c = of.cycle[end], of.cycle[end + 1]
-        if sense < 0:
-            a, c = c, a
-        for i in range(places.size):
-            p = pressure(sense * places[i], a, c, own)
-            if p < math.inf:
-                limits[i] += f * p
-    return limits
-
-
-@kernel
-def remaining_friction(of: Any, gain: Any, places: Any) -> Any:
-    """f (p1 + p2) less a gain, at the given points."""
-    remaining, end = friction_limits(of, places), gain.table.end
-    if end == -math.inf:
-        return remaining
-    for i in range(places.size):
-        if places[i] < end:
-            remaining[i] -= tabled(gain.table, places[i])
-        elif gain.rubs > 0:
-            remaining[i] = 0.0
-    return remaining
-
-
-@kernel
-def slip_zone(of: Any, side: float, start: float, slip: float, level: int) -> Any:
-    """The slip zone on one side, from m or n outward, with length `slip` in the smaller contact."""
-    beyond, kappa, gain = of.da, 1.0, of.left
-    if side > 0:
-        beyond, kappa, gain = of.dc, of.kappa, of.right
-    nodes = slip_nodes(of.cuts, side, start, slip, slip + beyond, level)
-    count = nodes.shape[1]
-    places = np.full(count + 1, side * start)
-    for i in range(count):
-        places[i] = side * (start + nodes[0, i])
-    r = kappa * remaining_friction(of, gain, places)
-    return Zone(nodes[0], nodes[1], r[:-1], slip + beyond, r[-1])
-
-
-@kernel
-def beside(of: Any, m: float, n: float, left: float, right: float, level: int) -> Any:
-    """The slip zones beside [-m, n], with lengths left = a - m and right = c - n."""
-    at_left = slip_zone(of, -1.0, m, left, level)
-    return Slip(m, n, left, right, at_left, slip_zone(of, 1.0, n, right, level))
-
-
-@kernel
-def unknown(why: float) -> Any:
-    """NaN if slip zones are not found, -inf if there are none of the kind sought."""
-    nothing = np.empty(0)
-    zone = Zone(nothing, nothing, nothing, 0.0, 0.0)
-    return Slip(why, why, -why, -why, zone, zone)
-
-
-@kernel
-def change_by_zone(zone: Any, near: float, far: float) -> Any:
-    """dq due to one slip zone, at given distances from this end of the stick zone and the other."""
-    if not zone.length > 0:
-        return 0.0
-    total, stuck, length = 0.0, near + far, zone.length
-    for i in range(zone.y.size):
-        y = zone.y[i]
-        singular = math.sqrt(y * (y + stuck)) * (y + near)
-        total += zone.weight[i] * (zone.r[i] - zone.at_start) / singular
-    angle = math.atan2(math.sqrt(length * far), math.sqrt(near * (length + stuck)))
-    return (math.sqrt(near * far) * total + 2 * zone.at_start * angle) / math.pi
-
-
-@kernel
-def change(slip: Any, x: float) -> Any:
-    """dq at x in the stick zone; if rounding puts x outside the stick zone, dq at its end."""
-    from_left, from_right = max(x + slip.m, 0.0), max(slip.n - x, 0.0)
-    return change_by_zone(slip.left, from_left, from_right) + change_by_zone(
-        slip.right, from_right, from_left
-    )
-
-
-# ---------------------------------------------------------------- both conditions
-
-
-@kernel
-def drives(dQ: float, dsigma: float, stuck: float) -> Any:
-    """The drive of slip by shear and tension at both ends of a stick zone of given width."""
-    by_tension = math.pi * stuck * dsigma / 8
-    return dQ + by_tension, dQ - by_tension
+def slipping_in(cycle: Any, regime: float) -> Slipping:
+    """A half-cycle of a known regime: both edges slip forward unless its code is that of LARGE."""
+    if regime != Regime.LARGE.value:
+        return slipping(cycle, 1.0, 1.0)
+    kappa = math.copysign(1.0, cycle.dsigma)
+    return slipping(cycle, kappa, -kappa)
 
 
 @kernel
 def turning_width(cycle: Any) -> float:
-    """H = 8 dQ/(pi dsigma), the width of a stick zone whose right end is not driven."""
-    return float(8 * cycle[4] / (math.pi * cycle[5]))
+    """The width of a stick zone at which slip is driven at one end only."""
+    return float(8 * cycle.dQ / (math.pi * abs(cycle.dsigma)))
 
 
 @kernel
 def _integrals(zone: Any, stuck: float) -> Any:
     """int r/u, int r u, C and D of the module's docstring over one slip zone."""
-    near = far = finite = beyond = 0.0
-    if not zone.length > 0:
-        return near, far, finite, beyond
-    at_start = zone.at_start / math.sqrt(stuck)
-    finite = -2 * at_start / math.sqrt(zone.length)
+    near = far = beyond = 0.0
+    first = zone.at_start / math.sqrt(stuck)
+    finite = -2 * first / math.sqrt(zone.length)
     for i in range(zone.y.size):
         y, weight = zone.y[i], zone.weight[i]
-        from_other_end = stuck + y
-        force = weight * zone.r[i] / math.sqrt(y * from_other_end)
-        near += force * from_other_end
+        root = math.sqrt(y)
+        force = weight * zone.r[i] / (root * math.sqrt(stuck + y))
+        near += force * (stuck + y)
         far += force * y
-        beyond += force / from_other_end
+        beyond += force / (stuck + y)
         if y > NEAREST * zone.length:
-            finite += (force - weight * at_start / math.sqrt(y)) / y
+            finite += (force - weight * first / root) / y
     return near, far, finite, beyond
 
 
 @kernel
-def sums(slip: Any) -> Any:
-    """L and R, and twice the derivatives dL/dm and dR/dn, without the terms in F."""
-    stuck = slip.m + slip.n
-    near_left, far_left, C_left, D_left = _integrals(slip.left, stuck)
-    near_right, far_right, C_right, D_right = _integrals(slip.right, stuck)
-    by_m, by_n = stuck * (C_left + D_right), stuck * (C_right + D_left)
-    return near_left + far_right, far_left + near_right, by_m, by_n
+def _sums(law: Any, own: Any, of: Any, m: float, n: float, rule: int) -> Any:
+    """L and R beside [-m, n], and twice dL/dm and dR/dn without the terms in F."""
+    stuck = m + n
+    left = slip_zone(law, own, of.cycle, -1.0, m, math.nan, rule)
+    right = slip_zone(law, own, of.cycle, 1.0, n, math.nan, rule)
+    near_left, far_left, C_left, D_left = _integrals(left, stuck)
+    near_right, far_right, C_right, D_right = _integrals(right, stuck)
+    return (
+        of.kappa * near_left + of.lamda * far_right,
+        of.kappa * far_left + of.lamda * near_right,
+        stuck * (of.kappa * C_left + of.lamda * D_right),
+        stuck * (of.lamda * C_right + of.kappa * D_left),
+    )
 
 
 @kernel
-def _step(of: Any, slip: Any) -> Any:
-    """Newton's step in the logarithms of both slip zones over the stick zone; the squared error."""
-    stuck = slip.m + slip.n
-    L, R, by_m, by_n = sums(slip)
-    drive_left, drive_right = drives(of.cycle[4], of.cycle[5], stuck)
-    residual_left, residual_right = L - drive_left, R - drive_right
-    skew = (residual_right - residual_left) / (2 * stuck)
-    left = residual_left, skew - by_m / 2, skew
-    right = residual_right, -skew, -skew - by_n / 2
-    by_left, by_right = log_step(slip.d_left, slip.d_right, left, right, stuck)
-    return by_left, by_right, residual_left * residual_left + residual_right * residual_right
+def _first_guess(law: Any, own: Any, of: Any) -> Any:
+    """Slip zones K_T/(f K_N), reduced so that they leave a stick zone between them."""
+    cycle, width = of.cycle, of.a + of.c
+    _, _, _, left_1, right_1 = law.state(cycle.a_1, cycle.c_1, own)
+    _, _, _, left_2, right_2 = law.state(cycle.a_2, cycle.c_2, own)
+    drive_left, drive_right = drives(cycle, width)
+    scale = math.pi * math.sqrt(width) * cycle.f / 2
+    left = max(abs(drive_left) / (scale * (left_1 + left_2)), EPS * width)
+    right = max(abs(drive_right) / (scale * (right_1 + right_2)), EPS * width)
+    shrink = width / (width + left + right)
+    return left * shrink, right * shrink
 
 
 @kernel
-def solved(of: Any, left: float, right: float, level: int) -> Any:
-    """Slip zones that meet both conditions, from a guess; NaN if Newton's method does not converge.
-
-    If a step leads away from the solution, a quarter of it is tried.  The nodes of the zones are
-    those before the last step.
-    """
-    width, small = of.a + of.c, ROUGH if level == 0 else SMALL
-    least = LEAST_STUCK * 8 * of.cycle[4] / math.pi
-    part, best, to_left, to_right = 1.0, math.inf, 0.0, 0.0
-    for _ in range(STEPS):
-        now_left, now_right = moved(width, left, right, part * to_left, part * to_right)
-        stuck = width - now_left - now_right
-        if not (now_left > 0 and now_right > 0 and stuck * of.cycle[5] > least):
-            break
-        slip = beside(of, of.a - now_left, of.c - now_right, now_left, now_right, level)
-        by_left, by_right, error = _step(of, slip)
-        length = max(abs(by_left), abs(by_right))
-        if error < best and length < math.inf:
-            left, right, best, part = now_left, now_right, error, 1.0
-            shrink = LONGEST / max(LONGEST, length)
-            to_left, to_right = by_left * shrink, by_right * shrink
-            rounding = 16 * EPS * width / min(left, right, stuck)
-            if length < max(small, rounding):
-                if (
-                    rounding < small
-                    and error > (MET * drives(of.cycle[4], of.cycle[5], stuck)[0]) ** 2
-                ):
-                    break
-                left, right = moved(width, left, right, to_left, to_right)
-                return Slip(of.a - left, of.c - right, left, right, slip.left, slip.right)
-        else:
+def _newton(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -> Any:
+    """Slip zones by Newton's method from a guess; NaN if it does not find any."""
+    width, best, part, by_left, by_right = of.a + of.c, math.inf, 1.0, 0.0, 0.0
+    for _ in range(MAX_STEPS):
+        next_left, next_right = moved(width, left, right, part * by_left, part * by_right)
+        stuck = width - next_left - next_right
+        L, R, by_m, by_n = _sums(law, own, of, of.a - next_left, of.c - next_right, rule)
+        drive_left, drive_right = drives(of.cycle, stuck)
+        off_left, off_right = L - drive_left, R - drive_right
+        error = off_left * off_left + off_right * off_right
+        if not error < best:
             part /= 4
-            if part < SHORTEST or best == math.inf:
+            if part < SHORTEST_PART or best == math.inf:
                 break
-    return unknown(math.nan)
+            continue
+        left, right, best = next_left, next_right, error
+        skew = (off_right - off_left) / (2 * stuck)
+        at_left, at_right = (off_left, skew - by_m / 2, skew), (off_right, -skew, -skew - by_n / 2)
+        by_left, by_right = log_step(left, right, at_left, at_right, stuck)
+        length = max(abs(by_left), abs(by_right))
+        if length < NEWTON_RTOL + 16 * EPS * width / min(left, right, stuck):
+            if not stuck > turning_width(of.cycle):
+                break
+            return moved(width, left, right, by_left, by_right)
+        part = min(1.0, LONGEST_STEP / length)
+    return math.nan, math.nan
 
 
 @kernel
-def placed(of: Any, stuck: float, n: float, level: int) -> Any:
-    """Slip zones that leave a stick zone of given width as the loads grow in proportion.
+def _placed(law: Any, own: Any, of: Any, stuck: float, n: float, rule: int) -> Any:
+    """The right end of a stick zone of given width as the loads grow in proportion, and the part of
+    the loads that it takes.
 
     Both conditions require L and R in the ratio of the drives; the deviation from this ratio grows
-    monotonically with n.  Slip must be driven in opposite directions, or not at all on the right.
+    with n.  Slip must be driven in opposite directions, or not at all on one side.
     n: the first guess.
     """
-    least, most = stuck - of.a, of.c
-    search = between(least, most, n, 2 * stuck)
-    drive_left, drive_right = drives(of.cycle[4], of.cycle[5], stuck)
-    for _ in range(2 * STEPS):
+    search = between(stuck - of.a, of.c, n, 2 * stuck)
+    drive_left, drive_right = drives(of.cycle, stuck)
+    for _ in range(2 * MAX_STEPS):
         n = search.y
-        slip = beside(of, stuck - n, n, n - least, most - n, level)
-        L, R, by_m, by_n = sums(slip)
+        L, R, by_m, by_n = _sums(law, own, of, stuck - n, n, rule)
         value, rate = drive_left * R - drive_right * L, (drive_left * by_n + drive_right * by_m) / 2
         search = narrowed(search, value, rate)
         if search.step == 0:
-            return slip
-    return unknown(math.nan)
+            return n, 4 * (L - R) / (math.pi * stuck * of.cycle.dsigma)
+    return math.nan, math.nan
 
 
 @kernel
-def share(of: Any, slip: Any) -> Any:
-    """The fraction of the loads that produces these slip zones."""
-    L, R, _, _ = sums(slip)
-    return 4 * (L - R) / (math.pi * (slip.m + slip.n) * of.cycle[5])
+def _bracketed(law: Any, own: Any, of: Any, rule: int) -> Any:
+    """Slip zones by the width of the stick zone, and whether slip reverses on one side."""
+    width = of.a + of.c
+    stuck = max(turning_width(of.cycle), NARROWEST * width)
+    if not stuck < width:
+        return math.nan, math.nan, True
+    n, part = _placed(law, own, of, stuck, math.nan, rule)
+    last, excess = stuck, 1 - part
+    if excess > 0:
+        return math.nan, math.nan, True
+    search = between(stuck, width, math.nan, 2 * width)
+    for _ in range(2 * MAX_STEPS):
+        before, stuck = excess, search.y
+        n, part = _placed(law, own, of, stuck, n, rule)
+        excess = 1 - part
+        search = narrowed(search, excess, (excess - before) / (stuck - last))
+        if search.step == 0:
+            return of.a - stuck + n, of.c - n, False
+        last = stuck
+    return math.nan, math.nan, False
+
+
+@kernel
+def zone_between(law: Any, own: Any, of: Any) -> Any:
+    """m and n between slip in opposite directions.
+
+    The regime is LARGE, or UNSOLVED if they are not found, or MIXED if slip has reversed.
+    """
+    rounding = 16 * EPS * (of.a + of.c)
+    left, right = _first_guess(law, own, of)
+    smooth = True
+    for rule in range(RULES):
+        last_left, last_right, reverses = left, right, False
+        if smooth:
+            left, right = _newton(law, own, of, left, right, rule)
+        smooth = smooth and left + right < math.inf
+        if not smooth:
+            left, right, reverses = _bracketed(law, own, of, rule)
+        if reverses:
+            return math.nan, math.nan, Regime.MIXED
+        if (
+            rule > 0
+            and abs(left - last_left) <= NEWTON_RTOL * left + rounding
+            and abs(right - last_right) <= NEWTON_RTOL * right + rounding
+        ):
+            return of.a - left, of.c - right, Regime.LARGE
+    return math.nan, math.nan, Regime.UNSOLVED
+
+
+@kernel
+def zone_of(law: Any, own: Any, of: Any, ends: Any) -> Any:
+    """m and n while slip grows in given directions, and the regime, as in `zone_between`."""
+    if of.kappa != of.lamda:
+        return zone_between(law, own, of)
+    load, tilt = (ends.load_1 + ends.load_2) / 2, (ends.tilt_1 + ends.tilt_2) / 2
+    f = of.cycle.f
+    load, tilt = load - of.cycle.dQ / (2 * f), tilt - of.cycle.dsigma / (4 * f)
+    m, n = contact_at_tilt(law, own, load, tilt)
+    return m, n, Regime.MODERATE if m + n > 0 else Regime.MIXED
+
+
+# ---------------------------------------------------------------- the shear in the stick zone
+
+
+@kernel
+def _change_by(zone: Any, near: float, far: float) -> float:
+    """dq due to r in a slip zone, at given distances from this end of the stick zone and the other
+    one."""
+    if not zone.length > 0:
+        return 0.0
+    total, stuck = 0.0, near + far
+    for i in range(zone.y.size):
+        y = zone.y[i]
+        singular = math.sqrt(y * (y + stuck)) * (y + near)
+        total += zone.weight[i] * (zone.r[i] - zone.at_start) / singular
+    angle = math.atan2(math.sqrt(zone.length * far), math.sqrt(near * (zone.length + stuck)))
+    return (math.sqrt(near * far) * total + 2 * zone.at_start * angle) / math.pi
+
+
+@kernel
+def change_between(of: Any, left: Any, right: Any, m: float, n: float, x: float) -> float:
+    """dq at x between two slip zones; if rounding puts x outside the stick zone, dq at its end."""
+    from_left, from_right = max(x + m, 0.0), max(n - x, 0.0)
+    by_left = _change_by(left, from_left, from_right)
+    return of.kappa * by_left + of.lamda * _change_by(right, from_right, from_left)

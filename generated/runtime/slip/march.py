@@ -12,272 +12,163 @@ does not return to its first state, |Q| >= f P, and a shear load that the stick 
 The last instant leads straight back to the first.  If this last step is nearly the whole way from
 one state to the other, the history is taken for a first loading and not for a cycle.
 
-The loads are a matrix with rows P, M, Q, sigma, divided by E*, and a column per instant.  The
-contacts are a matrix with columns A, C, TILT, LOAD and MOMENT and a row per instant.
+All loads are divided by E*.  Time lies along the last axis, which constants keep with length one.
 """
 
-import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..inverse import contact
-from ..kernels import kernel, loop, opened
-from ..types import (
-    FULL_STICK,
-    LARGE,
-    MIXED,
-    NO_STICK,
-    NONE,
-    NOT_CLOSED,
-    OUT_OF_PHASE,
-    SLIDING,
-    UNSOLVED,
-    Array,
-)
-from .bounded import oriented, sense_of
-from .growth import narrowest
-from .large import EXACT, large_slip
-from .locked import holds_load
-from .moderate import LOAD, MOMENT, TILT, A, C, patch
-from .zone import stick_zone
+from ..arrays import solved
+from ..body import Body
+from ..forward import each_contact
+from ..types import Array, Contact, Edges, March, Regime, StickZone
+from .locked import carries
+from .zone import each_stick_zone, each_zone_of_regime
 
-IN_ORDER = -1.0
-"""A code for a history without faults."""
+MAX_LAST_STEP = 0.99
+"""Largest step from the last instant back to the first, as a part of the way between the states."""
 
-P, M, Q, SIGMA = range(4)
-"""The rows of the loads."""
-
-BY_RANK = (Q, SIGMA, P, M)
-"""The first of these loads that changes determines the progress of the others."""
-
-WHOLE_WAY = 0.99
-"""Part of the way between both states from which the step back to the first instant is too long."""
-
-IN_PHASE = 1e-6
+PHASE_RTOL = 1e-6
 """Largest deviation of a load from the way between both states, relative to its change."""
 
-ROUNDING = 1e-12
+LOAD_RTOL = 1e-12
 """Loads whose relative change is below this are constant."""
 
-NOWHERE = math.nan, math.nan
+_UNIT = {"E_star": 1.0}
 
 
-# ---------------------------------------------------------------- what the loads do
+class _Way(NamedTuple):
+    """How the loads move.
 
-
-@kernel
-def _contacts(law: Any, own: Array, loads: Array) -> Array:
-    """The contact at every instant; NaN if there is none."""
-    contacts = np.empty((loads.shape[1], 5))
-    for i in range(loads.shape[1]):
-        if i > 0 and loads[P, i] == loads[P, i - 1] and loads[M, i] == loads[M, i - 1]:
-            contacts[i] = contacts[i - 1]
-            continue
-        contacts[i, A], contacts[i, C], contacts[i, TILT] = contact(
-            law, own, loads[P, i], loads[M, i]
-        )
-        contacts[i, LOAD], contacts[i, MOMENT] = loads[P, i], loads[M, i]
-    return contacts
-
-
-@kernel
-def _roundings(loads: Array, contacts: Array, f: Array) -> Array:
-    """Changes in each load that count as zero: a fraction of its size, or of a reference if larger.
-
-    The references for P, M, Q and sigma are P, P h, f P and f P/h.
+    Attributes
+    ----------
+    progress : ndarray
+        From 0 to 1; NaN where the loads are out of proportion.
+    start : ndarray of int
+        The instant at which the half-cycle began that leads to an instant.
+    returns : ndarray of bool
+        Whether the loads go on in one direction between reversals.
     """
-    sizes = np.zeros(4)
-    for i in range(loads.shape[1]):
-        h, load = contacts[i, A] + contacts[i, C], abs(loads[P, i])
-        for k, size in ((P, load), (M, load * h), (Q, f * load), (SIGMA, f * load / h)):
-            sizes[k] = max(sizes[k], abs(loads[k, i]), size)
-    for k in range(4):
-        sizes[k] *= ROUNDING
-    return sizes
+
+    progress: Array
+    start: Array
+    returns: Array
 
 
-@kernel
-def _progress(loads: Array, roundings: Array) -> Array:
-    """The progress of every instant, from 0 to 1; NaN where the loads are out of proportion."""
-    progress = np.zeros(loads.shape[1])
-    low = high = 0
-    for k in BY_RANK:
-        low, high = int(np.argmin(loads[k])), int(np.argmax(loads[k]))
-        change = loads[k, high] - loads[k, low]
-        if change > 2 * roundings[k]:
-            rounding = roundings[k] / change
-            for i in range(progress.size):
-                fraction = (loads[k, i] - loads[k, low]) / change
-                progress[i] = (
-                    0.0 if fraction <= rounding else 1.0 if fraction >= 1 - rounding else fraction
-                )
-            break
-    for k in range(4):
-        change = loads[k, high] - loads[k, low]
-        for i in range(progress.size):
-            deviation = abs(loads[k, i] - loads[k, low] - progress[i] * change)
-            if not deviation <= IN_PHASE * abs(change) + 2 * roundings[k]:
-                progress[i] = math.nan
-    return progress
+def marched(
+    body: Body, own: dict[str, Any], f: Array, P: Array, M: Array, Q: Array, sigma: Array
+) -> March:
+    """Steady cycles instant by instant, for E* = 1.  The shapes are equal, but for constants."""
+    contact = solved(each_contact, body, {"P": P, "M": M}, _UNIT, own, Contact)
+    loads, roundings = np.stack([P, M, Q, sigma]), _roundings(contact, f, P, M, Q, sigma)
+    way = _way(loads, roundings)
+    ends = [at(way.progress, axis=-1)[..., None] for at in (np.argmin, np.argmax)]
+    low, high = (_at(loads, end) for end in ends)
+    whole = _half_cycle(contact, *ends, high - low, roundings)
+    constants = {"f": f, **_UNIT}
+    m, _, regime = solved(each_stick_zone, body, whole, constants, own, StickZone, ("regime",))
+    refused, refusal = _refusal(way, loads, contact, f)
+    regime = np.where(refused, refusal, regime)
+    for case in np.ndindex(regime.shape[:-1]):
+        parameters = {name: value[case][0] for name, value in own.items()}
+        first, last = (load[(slice(None), *case, 0)] for load in (low, high))
+        if not carries(body, parameters, f[case][0], first, last, regime[case][0]):
+            m[case], regime[case] = np.nan, Regime.NO_STICK
+
+    # part of the whole half-cycle up to each instant; of a mixed one at most the ends are known
+    sense = np.where(_at(way.progress, way.start) == 0, 1, -1)
+    rise = sense * (loads - _at(loads, way.start))
+    now = np.broadcast_to(np.arange(P.shape[-1]), P.shape)
+    part = _half_cycle(contact, way.start, now, rise, roundings)
+    part["regime"] = np.where(regime == Regime.MIXED, Regime.MODERATE, regime)
+    at_end = way.progress == (1 + sense) / 2
+    asked = ~refused & ~np.isnan(m) & ((regime != Regime.MIXED) | at_end)
+    zone = np.full((2, *P.shape), np.nan)
+    given, constants, own = (
+        {name: np.broadcast_to(value, P.shape)[asked] for name, value in values.items()}
+        for values in (part, constants, own)
+    )
+    zone[:, asked] = solved(each_zone_of_regime, body, given, constants, own, Edges)
+    a, c = (np.minimum(edge, _at(edge, way.start)) * (1 + LOAD_RTOL) for edge in contact[:2])
+    exists = (zone[0] + zone[1] > 0) & (zone[0] <= a) & (zone[1] <= c)
+    large, backward = regime == Regime.LARGE, whole["dsigma"] < 0
+    slips = exists & (regime != Regime.FULL_STICK)
+    left = np.where(slips, np.where(large & backward, -sense, sense), 0)
+    return March(
+        *contact[:2],
+        *np.where(exists, zone, np.nan),
+        left,
+        np.where(large, -left, left),
+        np.where(asked & ~exists, Regime.UNSOLVED, regime),
+    )
 
 
-@kernel
-def _starts(progress: Array) -> Array:
-    """The instant at which each half-cycle began; NaN where the way there or back is not monotonic.
-
-    While the loads are constant at a reversal, the half-cycle that led there has reached its end.
-    """
-    count, begin = progress.size, 0
-    for i in range(count):
-        if progress[i] == 0 and progress[(i + 1) % count] > 0:
-            begin = i
-    starts = np.empty(count)
-    turn, rises, reached = begin, True, 0.0
-    for k in range(1, count + 1):
-        i = (begin + k) % count
-        now = progress[i] if rises else 1 - progress[i]
-        if reached == 1 and now < 1:
-            turn, rises, reached = (i - 1) % count, not rises, 0.0
-            now = 1 - now
-        starts[i] = turn if now >= reached - IN_PHASE else math.nan
-        reached = max(reached, now)
-    return starts
+def _at(values: Array, instants: Array) -> Array:
+    """The values at given instants."""
+    instants = np.broadcast_to(instants, (*values.shape[:-1], instants.shape[-1]))
+    return np.take_along_axis(values, instants, axis=-1)
 
 
-@kernel
-def _refusal(loads: Array, contacts: Array, f: Array, progress: Array, starts: Array) -> Array:
-    """The regime of a history that is refused at all instants, or IN_ORDER."""
-    last = progress.size - 1
-    slides, jumps = False, abs(progress[last] - progress[0]) > WHOLE_WAY
-    out_of_phase = False
-    for i in range(progress.size):
-        known = f > 0 and contacts[i, C] + contacts[i, A] > 0 and math.isfinite(contacts[i, TILT])
-        for k in range(4):
-            known = known and math.isfinite(loads[k, i])
-        if not known:
-            return NONE
-        slides = slides or abs(loads[Q, i]) >= f * loads[P, i]
-        out_of_phase = out_of_phase or math.isnan(progress[i]) or math.isnan(starts[i])
-    if slides:
-        return SLIDING
-    if out_of_phase:
-        return OUT_OF_PHASE
-    return NOT_CLOSED if jumps else IN_ORDER
+def _roundings(contact: Contact, f: Array, P: Array, M: Array, Q: Array, sigma: Array) -> Array:
+    """Changes in P, M, Q and sigma that count as zero: a part of their sizes, or of P, P h, f P and
+    f P/h if those are larger."""
+    h = contact.a + contact.c
+    sizes = np.abs([[P, M, Q, sigma], [P, P * h, f * P, f * P / h]])
+    return LOAD_RTOL * np.max(sizes, axis=(0, -1))[..., None]
 
 
-# ---------------------------------------------------------------- stick zones and slip
+def _way(loads: Array, roundings: Array) -> _Way:
+    """How the loads move."""
+    by_rank = [2, 3, 0, 1]  # the first of Q, sigma, P and M that changes leads
+    changes = np.ptp(loads, axis=-1, keepdims=True)
+    leading = np.argmax((changes > 2 * roundings)[by_rank], axis=0)[None]
+    lead, rounding = (
+        np.take_along_axis(v[by_rank], leading, axis=0)[0] for v in (loads, roundings)
+    )
+    low, high = (at(lead, axis=-1)[..., None] for at in (np.argmin, np.argmax))
+    least, change = _at(lead, low), _at(lead, high) - _at(lead, low)
+    moves = change > 2 * rounding
+    progress = np.where(moves, (lead - least) / change, 0.0)
+    near = np.where(moves, rounding / change, 0.0)
+    progress = np.where(progress <= near, 0.0, np.where(progress >= 1 - near, 1.0, progress))
+    rise = _at(loads, high) - _at(loads, low)
+    deviation = abs(loads - _at(loads, low) - progress * rise)
+    within = deviation <= PHASE_RTOL * abs(rise) + 2 * roundings
+    progress = np.where(np.all(within, axis=0), progress, np.nan)
+
+    # the last end of the way before each instant, other than that at the instant itself
+    count = progress.shape[-1]
+    twice = np.concatenate([progress, progress], axis=-1)
+    last = [np.where(twice == end, np.arange(2 * count), -1) for end in (0, 1)]
+    at_0, at_1 = (np.roll(np.maximum.accumulate(v, axis=-1), 1, axis=-1) for v in last)
+    start = np.where(twice == 0, at_1, np.where(twice == 1, at_0, np.maximum(at_0, at_1)))
+    start = np.maximum(start[..., count:], 0) % count
+    sense = np.where(_at(progress, start) == 0, 1, -1)
+    onward = sense * (progress - np.roll(progress, 1, axis=-1)) >= -PHASE_RTOL
+    return _Way(progress, start, np.all(onward, axis=-1, keepdims=True))
 
 
-@kernel
+def _refusal(way: _Way, loads: Array, contact: Contact, f: Array) -> tuple[Array, Array]:
+    """Whether histories are refused at all instants, and the regime that says why."""
+    valid = np.isfinite(loads).all(axis=0) & (contact.a + contact.c > 0) & np.isfinite(contact.alpha)
+    exists = (valid & (f > 0)).all(axis=-1, keepdims=True)
+    slides = np.any(abs(loads[2]) >= f * loads[0], axis=-1, keepdims=True)
+    jumps = abs(way.progress[..., -1:] - way.progress[..., :1]) > MAX_LAST_STEP
+    refusals = {
+        Regime.NONE: ~exists,
+        Regime.SLIDING: slides,
+        Regime.OUT_OF_PHASE: ~way.returns,
+        Regime.NOT_CLOSED: jumps,
+    }
+    refused = np.stack(list(refusals.values()))
+    return refused.any(axis=0), np.select(list(refused), list(refusals))
+
+
 def _half_cycle(
-    loads: Array,
-    contacts: Array,
-    roundings: Array,
-    f: Array,
-    start: Array,
-    end: Array,
-    sense: Array,
-) -> Array:
-    """a1, c1, a2, c2, dQ, dsigma, f between two instants; sense is -1 if the loads go back."""
-    cycle = np.empty(7)
-    cycle[0], cycle[1] = contacts[start, A], contacts[start, C]
-    cycle[2], cycle[3] = contacts[end, A], contacts[end, C]
-    for i, k in ((4, Q), (5, SIGMA)):
-        rise = sense * (loads[k, end] - loads[k, start])
-        cycle[i] = 0.0 if abs(rise) <= roundings[k] else rise
-    cycle[6] = f
-    return cycle
-
-
-@kernel
-def large_zone(law: Any, own: Any, cycle: Any) -> Any:
-    """m and n under large tension of either sign."""
-    sense, as_oriented = sense_of(cycle), oriented(cycle)
-    slip = large_slip(law, own, as_oriented, sense, EXACT)
-    return (slip.m, slip.n) if sense > 0 else (slip.n, slip.m)
-
-
-@kernel
-def _stuck(
-    law: Any,
-    own: Array,
-    contacts: Array,
-    cycle: Array,
-    start: Array,
-    now: Array,
-    regime: Array,
-) -> Any:
-    """m and n of a half-cycle that ends now, if the regime of the whole half-cycle is known."""
-    if regime == FULL_STICK:
-        ends = np.empty((2, 5))
-        ends[0], ends[1] = contacts[start], contacts[now]
-        return narrowest(law, own, ends)
-    a, c = min(cycle[0], cycle[2]), min(cycle[1], cycle[3])
-    if regime == LARGE:
-        m, n = large_zone(law, own, cycle)
-    else:
-        m, n = patch(law, own, contacts, start, now, 1.0, cycle)
-    rounding = ROUNDING * (a + c)
-    if m + n > 0 and m <= a + rounding and n <= c + rounding:
-        return m, n
-    return NOWHERE
-
-
-@kernel
-def _begin(found: Array, contacts: Array, regime: Array) -> Array:
-    """Fill the rows of instants for which only the contacts and the regime are known."""
-    for i in range(found.shape[0]):
-        found[i, 0], found[i, 1], found[i, 6] = contacts[i, A], contacts[i, C], regime
-        found[i, 2] = found[i, 3] = math.nan
-        found[i, 4] = found[i, 5] = 0.0
-    return regime
-
-
-@kernel
-def _finish(found: Array, regime: Array, left: Array) -> Array:
-    """Fill in directions of slip, and the regime, at an instant whose stick zone was computed."""
-    if math.isnan(found[2]):
-        found[6] = UNSOLVED
-    elif regime != FULL_STICK:
-        found[4], found[5] = left, -left if regime == LARGE else left
-    return found[6]
-
-
-@loop
-def each_march(law: Any, given: Array, own: Array, out: Array) -> None:
-    """given: f, then P, M, Q and sigma at T instants.
-
-    out: a, c, m, n, left, right, regime, T times.
-    """
-    law = opened(law)
-    count = (given.shape[1] - 1) // 4
-    for row in range(given.shape[0]):
-        f, body = given[row, 0], own[row]
-        loads, found = given[row, 1:].reshape((4, count)), out[row].reshape((count, 7))
-        contacts = _contacts(law, body, loads)
-        roundings = _roundings(loads, contacts, f)
-        progress = _progress(loads, roundings)
-        starts = _starts(progress)
-        regime = _refusal(loads, contacts, f, progress, starts)
-        _begin(found, contacts, regime)
-        if regime != IN_ORDER:
-            continue
-        low, high = np.argmin(progress), np.argmax(progress)
-        cycle = _half_cycle(loads, contacts, roundings, f, low, high, 1.0)
-        m, _, regime = stick_zone(law, body, cycle)
-        both = np.empty((2, 5))
-        both[0], both[1] = contacts[low], contacts[high]
-        if not holds_load(law, body, both, cycle, regime, loads[Q, low]):
-            m, regime = math.nan, NO_STICK
-        _begin(found, contacts, regime)
-        kappa = -1.0 if regime == LARGE and cycle[5] < 0 else 1.0
-        for i in range(count):
-            start = int(starts[i])
-            sense = 1.0 if progress[start] == 0 else -1.0
-            # of a mixed cycle at most the ends are known
-            ends = progress[i] == (1 + sense) / 2
-            if not math.isnan(m) and (regime != MIXED or ends):
-                cycle = _half_cycle(loads, contacts, roundings, f, start, i, sense)
-                found[i, 2], found[i, 3] = _stuck(law, body, contacts, cycle, start, i, regime)
-                _finish(found[i], regime, sense * kappa)
+    contact: Contact, start: Array, end: Array, rise: Array, roundings: Array
+) -> dict[str, Array]:
+    """a_1, c_1, a_2, c_2, dQ and dsigma between instants; roundings of the loads count as zero."""
+    edges = [_at(edge, instants) for instants in (start, end) for edge in contact[:2]]
+    changes = np.where(abs(rise) <= roundings, 0.0, rise)[2:]
+    return dict(zip(("a_1", "c_1", "a_2", "c_2", "dQ", "dsigma"), [*edges, *changes], strict=True))

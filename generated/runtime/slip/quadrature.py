@@ -1,43 +1,42 @@
-"""Nodes and weights on a slip zone.
+r"""Slip zones and the shear traction in them, at the nodes of a quadrature.
 
 A slip zone extends from the end of the stick zone to the edge of the larger contact.  A point in it
 is given by its distance y from the stick zone: x = side (start + y), with side -1 on the left and
-+1 on the right, and start = m or n.  The zone is cut at the edge of the smaller contact, and at the
-points where the traction left by slip changes its formula.  Each part takes one of these rules:
++1 on the right, and start = m or n.  Where the surfaces slip in both half-cycles, the shear
+traction changes by r = f (p_1 + p_2), in the direction of slip.
 
-* Gauss's rule in an angle, y = low + (high - low) sin(angle)**2, which makes square roots at both
-  ends smooth;
-* the same with angle = (pi/2) sin(t)**2, next to a break: the pressure has a logarithm there, with
-  t**7 at a kink and t**3 at a corner;
-* the double exponential rule, q = 1/(1 + exp(-pi sinh t)), whose nodes crowd towards both ends: for
-  corners, and for singularities close beyond an end.
-
-Level 0 takes 16 nodes of the first rule, or 24 of the second on parts that end in a break; level 1
-takes twice as many.  Levels 2 and 3 take the third rule on all parts, with steps 2**-5 and 2**-6.
+The zone is cut at the edge of the smaller contact and at the breaks of the body.  Each part takes
+the double exponential rule, y = low + (high - low)/(1 + exp(-pi sinh t)), whose nodes crowd towards
+both ends: for square roots there, for corners, and for kinks close beyond an end.  Rule number k
+has the step 2**-k/3.
 """
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..kernels import kernel
 
-FINEST = 3
-"""The finest level."""
+RULES = 4
+"""Number of rules, the last one being the finest."""
 
-REACH = 4
-"""Largest t of the double exponential rule, where a node is 1e-37 of a part from its end."""
+ROUGH, FINEST = np.int64(1), np.int64(RULES - 1)
+"""Rules for shear to about 1e-7 and, however close a kink is to the stick zone, to 1e-12; typed as
+loop counters are, so that each kernel is compiled once."""
+
+REACH = 3.75
+"""Largest t of a rule, where a node is 1e-32 of a part from its end."""
 
 
-def _gauss(count: int, times: int) -> Any:
-    """Nodes and weights on (0, 1), with q = sin(angle)**2 substituted `times` times."""
-    node, weight = np.polynomial.legendre.leggauss(count)
-    q, weight = (node + 1) / 2, weight / 2
-    for _ in range(times):
-        weight = weight * math.pi / 2 * np.sin(math.pi * q)
-        q = np.sin(math.pi / 2 * q) ** 2
-    return q, weight
+class SlipZone(NamedTuple):
+    """A slip zone: its nodes y, their weights, r at the nodes, its length, and r at its start."""
+
+    y: Any
+    weight: Any
+    r: Any
+    length: float
+    at_start: float
 
 
 def double_exponential(step: float) -> Any:
@@ -48,62 +47,49 @@ def double_exponential(step: float) -> Any:
     return q, step * math.pi * np.cosh(t) * q * rest
 
 
-_RULES = [
-    *(_gauss(count, times) for count, times in ((16, 1), (32, 1), (24, 2), (48, 2))),
-    *(double_exponential(step) for step in (2.0**-5, 2.0**-6)),
-]
-_NODES, _WEIGHTS = np.concatenate(_RULES, axis=1)
-_FIRST = np.cumsum([0, *(len(rule[0]) for rule in _RULES)])
-_SMOOTH, _BROKEN = np.array([0, 1, 4, 5]), np.array([2, 3, 4, 5])
-"""Numbers of the rules for each level."""
+_ALL = [double_exponential(2.0**-k / 3) for k in range(RULES)]
+_NODES, _WEIGHTS = np.concatenate(_ALL, axis=1)
+_FIRST = np.cumsum([0, *(len(nodes) for nodes, _ in _ALL)])
 
 
 @kernel
-def _next_cut(cuts: Any, side: float, start: float, slip: float, length: float, y: float) -> Any:
-    """The first cut beyond y, or `length` if there is none."""
-    cut = length
-    if y < slip < cut:
-        cut = slip
-    for place in cuts:
-        if y < side * place - start < cut:
-            cut = side * place - start
-    return cut
+def pressures(law: Any, own: Any, cycle: Any, x: float) -> float:
+    """p_1 + p_2; infinite at a corner."""
+    p = law.pressure(x, cycle.a_1, cycle.c_1, own)
+    if cycle.a_1 == cycle.a_2 and cycle.c_1 == cycle.c_2:
+        return 2 * p
+    return p + law.pressure(x, cycle.a_2, cycle.c_2, own)
 
 
 @kernel
-def _rule_on(cuts: Any, side: float, start: float, low: float, high: float, level: int) -> Any:
-    """Number of the rule for a part."""
-    for place in cuts:
-        y = side * place - start
-        if y in (low, high):
-            return _BROKEN[level]
-    return _SMOOTH[level]
+def limit(law: Any, own: Any, cycle: Any, x: float) -> float:
+    """f (p_1 + p_2); the infinite pressure of a corner counts as zero."""
+    p = pressures(law, own, cycle, x)
+    return cycle.f * p if p < math.inf else 0.0
 
 
 @kernel
-def slip_nodes(cuts: Any, side: float, start: float, slip: float, length: float, level: int) -> Any:
-    """Nodes, as distances y from the stick zone, and their weights: two rows.
-
-    cuts    points where the traction left by slip changes its formula
-    side    -1 on the left, +1 on the right
-    start   m or n
-    slip    y at the edge of the smaller contact
-    length  y at the edge of the larger contact
-    """
+def slip_zone(
+    law: Any, own: Any, cycle: Any, side: float, start: float, cut: float, rule: int
+) -> SlipZone:
+    """The slip zone on one side of the stick zone; `cut` is one more point x to cut it at."""
+    edge_1, edge_2 = (cycle.a_1, cycle.a_2) if side < 0 else (cycle.c_1, cycle.c_2)
+    inner, length = min(edge_1, edge_2) - start, max(edge_1, edge_2) - start
+    breaks, first, last = law.breaks(own), _FIRST[rule], _FIRST[rule + 1]
+    nodes = np.empty((3, (breaks.size + 3) * (last - first)))
     count, low = 0, 0.0
     while low < length:
-        high = _next_cut(cuts, side, start, slip, length, low)
-        rule = _rule_on(cuts, side, start, low, high, level)
-        count += _FIRST[rule + 1] - _FIRST[rule]
-        low = high
-    nodes = np.empty((2, count))
-    count, low = 0, 0.0
-    while low < length:
-        high = _next_cut(cuts, side, start, slip, length, low)
-        rule = _rule_on(cuts, side, start, low, high, level)
-        for i in range(_FIRST[rule], _FIRST[rule + 1]):
-            nodes[0, count] = low + (high - low) * _NODES[i]
-            nodes[1, count] = (high - low) * _WEIGHTS[i]
+        high = inner if low < inner else length
+        if low < side * cut - start < high:
+            high = side * cut - start
+        for at in breaks:
+            if low < side * at - start < high:
+                high = side * at - start
+        for i in range(first, last):
+            y = low + (high - low) * _NODES[i]
+            nodes[0, count], nodes[1, count] = y, (high - low) * _WEIGHTS[i]
+            nodes[2, count] = limit(law, own, cycle, side * (start + y))
             count += 1
         low = high
-    return nodes
+    at_start = limit(law, own, cycle, side * start)
+    return SlipZone(nodes[0, :count], nodes[1, :count], nodes[2, :count], length, at_start)

@@ -30,8 +30,6 @@ problems obey the same linear equations, so that the first loading to Q and sigm
 the change under 2 Q and 2 sigma.  When the loads then fall, the shear traction changes as in any
 half-cycle, provided that reverse slip is confined to points that slipped before, and that no point
 that slipped before is driven further.
-
-A cycle is a vector a1, c1, a2, c2, dQ, dsigma, f; everything is for E* = 1.
 """
 
 import math
@@ -41,160 +39,121 @@ import numpy as np
 
 from ..elementary import EPS
 from ..kernels import kernel, loop, opened
-from ..types import FULL_STICK, LARGE, MIXED, MODERATE
-from .bounded import beside, change, friction, oriented, sense_of
+from ..types import Array, Regime, StickZone
+from .bounded import change_between, slipping_in
+from .cycles import cycle_of, is_steady
+from .quadrature import FINEST, pressures, slip_zone
 
-LEVEL = 2
-"""Level of the quadrature, sufficient however close a kink is to the stick zone."""
-
-BESIDE = 1e-20
-"""Least distance between a point in the stick zone and a corner, relative to the zone's width; a
+MIN_CORNER_DISTANCE = 1e-20
+"""Smallest distance between a point in the stick zone and a corner, relative to the zone's width; a
 rounding of the corner's place if that is larger."""
 
-ROUNDED = 1e-9
-"""Ends of two stick zones that differ by less than this fraction of the contact width may be
-equal."""
+ZONE_RTOL = 1e-9
+"""Ends of two stick zones that differ by less than this part of the contact width may be equal."""
 
 
 # ---------------------------------------------------------------- the change in shear
 
 
 @kernel
-def _alike(cycle: Any) -> Any:
-    """Whether the contact is the same at both ends of the half-cycle."""
-    return cycle[0] == cycle[2] and cycle[1] == cycle[3]
-
-
-@kernel
-def _beside_corner(law: Any, own: Any, x: float, m: float, n: float) -> Any:
+def _beside_corner(law: Any, own: Any, x: float, m: float, n: float) -> float:
     """x, moved inward off a corner in the stick zone: p is infinite at the corner, dq is not."""
     for corner in law.breaks(own):
-        away = max(BESIDE * (m + n), EPS * abs(corner))
+        away = max(MIN_CORNER_DISTANCE * (m + n), EPS * abs(corner))
         if abs(x - corner) < away:
             x = corner + (away if corner < (n - m) / 2 else -away)
     return x
 
 
 @kernel
-def pressures(law: Any, own: Any, cycle: Any, x: float) -> Any:
-    """p1 + p2; infinite at a corner."""
-    p = law.pressure(x, cycle[0], cycle[1], own)
-    return 2 * p if _alike(cycle) else p + law.pressure(x, cycle[2], cycle[3], own)
+def _share_a_cycle(given: Any, own: Any, i: int) -> bool:
+    """Whether a row differs from the one before only in its place, column 9."""
+    for k in range(given.shape[1]):
+        if k != 9 and given[i, k] != given[i - 1, k]:
+            return False
+    for k in range(own.shape[1]):
+        if own[i, k] != own[i - 1, k]:
+            return False
+    return True
 
 
 @kernel
-def change_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x: float) -> Any:
-    """dq at x; zero outside both contacts, NaN where the stick zone is not known."""
-    if math.isnan(x):
-        return math.nan
-    if regime == FULL_STICK and _alike(cycle):
-        return 0.0
-    if regime not in (MODERATE, LARGE, MIXED) or not m + n < math.inf:
-        return math.nan
-    f = cycle[6]
-    if x <= -m or x >= n:
-        on_left = x < (n - m) / 2
-        forward = regime != LARGE or on_left != (cycle[5] < 0)
-        return (f if forward else -f) * pressures(law, own, cycle, x)
-    if regime == LARGE:
-        sense, cycle = sense_of(cycle), oriented(cycle)
-        of = friction(law, own, cycle, sense, -1.0, math.nan)
-        m, n = (m, n) if sense > 0 else (n, m)
-        return change(beside(of, m, n, of.a - m, of.c - n, LEVEL), sense * x)
-    x = _beside_corner(law, own, x, m, n)
-    return f * (pressures(law, own, cycle, x) - 2 * law.pressure(x, m, n, own))
-
-
-@kernel
-def _cycle(row: Any) -> Any:
-    """A cycle from x, a1, c1, a2, c2, dQ, dsigma, m, n, regime, f, E*."""
-    cycle = row[1:8].copy()
-    cycle[4], cycle[5], cycle[6] = row[5] / row[11], row[6] / row[11], row[10]
-    return cycle
+def _changes(law: Any, own: Any, rows: Any, out: Any) -> None:
+    """dq at the places of rows that share a cycle and its stick zone; zero outside both contacts,
+    NaN where the stick zone is not known."""
+    cycle, m, n, regime = cycle_of(rows[0]), rows[0, 6], rows[0, 7], rows[0, 8]
+    of, f, E_star = slipping_in(cycle, regime), cycle.f, rows[0, 11]
+    sticks = regime == Regime.FULL_STICK.value and is_steady(cycle)
+    known = m + n < math.inf and regime in (
+        Regime.MODERATE.value,
+        Regime.LARGE.value,
+        Regime.MIXED.value,
+    )
+    between = known and of.kappa != of.lamda
+    if between:
+        left = slip_zone(law, own, cycle, -1.0, m, math.nan, FINEST)
+        right = slip_zone(law, own, cycle, 1.0, n, math.nan, FINEST)
+    for i in range(rows.shape[0]):
+        x = rows[i, 9]
+        if sticks and not math.isnan(x):
+            dq = 0.0
+        elif math.isnan(x) or not known:
+            dq = math.nan
+        elif x <= -m or x >= n:
+            kappa = of.kappa if x < (n - m) / 2 else of.lamda
+            dq = kappa * f * pressures(law, own, cycle, x)
+        elif between:
+            dq = change_between(of, left, right, m, n, x)
+        else:
+            x = _beside_corner(law, own, x, m, n)
+            dq = f * (pressures(law, own, cycle, x) - 2 * law.pressure(x, m, n, own))
+        out[i, 0] = E_star * dq
 
 
 @loop
 def each_shear_change(law: Any, given: Any, own: Any, out: Any) -> None:
-    """x, a1, c1, a2, c2, dQ, dsigma, m, n, regime, f, E* -> dq."""
-    law = opened(law)
-    for i in range(given.shape[0]):
-        m, n, regime, E_star = given[i, 7], given[i, 8], given[i, 9], given[i, 11]
-        cycle = _cycle(given[i])
-        out[i, 0] = E_star * change_at(law, own[i], cycle, m, n, regime, given[i, 0])
+    """a_1, c_1, a_2, c_2, dQ, dsigma, m, n, regime, x, f, E* -> dq."""
+    law, start, rows = opened(law), 0, given.shape[0]
+    for i in range(1, rows + 1):
+        if i == rows or not _share_a_cycle(given, own, i):
+            _changes(law, own[start], given[start:i], out[start:i])
+            start = i
 
 
 # ---------------------------------------------------------------- the shear traction itself
 
 
-@kernel
-def _turns_between(cycle: Any, zone: Any, a: float, c: float) -> Any:
-    """Whether the rate of shear, while [-a, c] sticks, changes sign within a stick zone."""
-    turn = (c - a) / 2 + 4 * cycle[4] / (math.pi * cycle[5])
-    margin = ROUNDED * (cycle[0] + cycle[1])
-    return -zone[0] - margin < turn < zone[1] + margin
+def _turns_in(contact: Any, dQ: Array, dsigma: Array, zone: StickZone, margin: Array) -> Array:
+    """Whether the rate of shear, while a contact sticks, changes sign within a stick zone."""
+    a, c = contact
+    turn = (c - a) / 2 + 4 * dQ / (np.pi * dsigma)
+    return (-zone.m - margin < turn) & (turn < zone.n + margin)
 
 
-@kernel
-def _slips_within(cycle: Any, zone: Any, other: Any, other_zone: Any) -> Any:
-    """Whether one half-cycle slips only where another one slips, and in the corresponding
-    direction.
+def rises_and_falls(
+    contact: Any, rise: Any, rise_zone: StickZone, fall: Any, fall_zone: StickZone
+) -> Array:
+    """Whether shear follows from the change `rise`, by half, and the change `fall` after it.
 
-    No point that slipped before may be driven further either.  Under moderate tension the rate of
-    shear has the same sign everywhere.  A zone is given by m, n and its regime.
+    The fall must slip only where the rise does, and in the corresponding direction, and must drive
+    no point that slipped before further.  Under moderate tension the rate of shear has the same
+    sign everywhere.
+
+    contact     its edges a and c
+    rise, fall  changes in Q and sigma
     """
-    m, n, regime = zone
-    if regime == FULL_STICK:
-        return True
-    margin = ROUNDED * (cycle[0] + cycle[1])
-    if regime != other_zone[2] or not (m > other_zone[0] - margin and n > other_zone[1] - margin):
-        return False
-    if regime == MODERATE:
-        return True
-    return (
-        regime == LARGE
-        and (cycle[5] < 0) == (other[5] < 0)
-        and _turns_between(cycle, other_zone, cycle[0], cycle[1])
-        and _turns_between(cycle, other_zone, m, n)
+    margin = ZONE_RTOL * (contact[0] + contact[1])
+    stuck = rise_zone.regime == Regime.FULL_STICK
+    moderate, large = (rise_zone.regime == code for code in (Regime.MODERATE, Regime.LARGE))
+    slips_less = (fall_zone.m > rise_zone.m - margin) & (fall_zone.n > rise_zone.n - margin)
+    follows = (
+        ((rise[1] < 0) == (fall[1] < 0))
+        & _turns_in(contact, *fall, rise_zone, margin)
+        & _turns_in((fall_zone.m, fall_zone.n), *fall, rise_zone, margin)
     )
-
-
-@kernel
-def shear_at(
-    law: Any, own: Any, rise: Any, rise_zone: Any, fall: Any, fall_zone: Any, x: float
-) -> Any:
-    """q at x after half of the change `rise` from zero, less the change `fall`.
-
-    Both are cycles of one contact, given with m, n and the regime.  NaN if one of the stick zones
-    is not known, or if slip does not grow throughout.
-    """
-    known = rise_zone[2] in (MODERATE, LARGE, FULL_STICK) and fall[4] <= rise[4]
-    if not (known and _slips_within(fall, fall_zone, rise, rise_zone)):
-        return math.nan
-    m, n, regime = rise_zone
-    q = change_at(law, own, rise, m, n, regime, x) / 2
-    m, n, regime = fall_zone
-    return q - change_at(law, own, fall, m, n, regime, x)
-
-
-@loop
-def each_shear(law: Any, given: Any, own: Any, out: Any) -> None:
-    """x, a, c, Q, sigma, dQ, dsigma, both stick zones as m, n, regime, f, E* -> q.
-
-    The rise is the half-cycle of 2 Q and 2 sigma, the fall that of dQ and dsigma.
-    """
-    law = opened(law)
-    rise, fall = np.empty(7), np.empty(7)
-    for i in range(given.shape[0]):
-        row = given[i]
-        for cycle in (rise, fall):
-            cycle[0] = cycle[2] = row[1]
-            cycle[1] = cycle[3] = row[2]
-            cycle[6] = row[13]
-        E_star = row[14]
-        rise[4], rise[5] = 2 * row[3] / E_star, 2 * row[4] / E_star
-        fall[4], fall[5] = row[5] / E_star, row[6] / E_star
-        rise_zone, fall_zone = (row[7], row[8], row[9]), (row[10], row[11], row[12])
-        out[i, 0] = E_star * shear_at(law, own[i], rise, rise_zone, fall, fall_zone, row[0])
+    within = slips_less & (fall_zone.regime == rise_zone.regime) & (moderate | (large & follows))
+    known = (moderate | large | stuck) & (fall[0] <= rise[0])
+    return known & ((fall_zone.regime == Regime.FULL_STICK) | within)
 
 
 # ---------------------------------------------------------------- slip
@@ -229,27 +188,30 @@ def _slipped(zone: Any, stuck: float, there: float, here: bool) -> Any:
 
 
 @kernel
-def slip_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x: float) -> Any:
-    """Slip range at x; NaN outside either contact, and where slip reverses."""
-    if not (regime > 0 and -min(cycle[0], cycle[2]) <= x <= min(cycle[1], cycle[3])):
+def _slip(law: Any, own: Any, cycle: Any, zone: Any, x: float) -> float:
+    """Slip range at x; NaN outside either contact, and where slip reverses.
+
+    zone: m, n and the code of the regime.
+    """
+    m, n, regime = zone
+    if not (regime > 0 and -min(cycle.a_1, cycle.a_2) <= x <= min(cycle.c_1, cycle.c_2)):
         return math.nan
     if -m <= x <= n:
         return 0.0
-    if regime not in (MODERATE, LARGE):
+    if regime not in (Regime.MODERATE.value, Regime.LARGE.value):
         return math.nan
-    sense, cycle = sense_of(cycle), oriented(cycle)
-    x, m, n = (x, m, n) if sense > 0 else (-x, n, m)
-    of = friction(law, own, cycle, sense, 1.0 if regime == MODERATE else -1.0, x)
-    there = x - n if x > n else -m - x
-    slip = beside(of, m, n, of.a - m, of.c - n, LEVEL)
-    total = _slipped(slip.left, m + n, there, x < -m) + _slipped(slip.right, m + n, there, x > n)
+    of, there = slipping_in(cycle, regime), x - n if x > n else -m - x
+    left = slip_zone(law, own, cycle, -1.0, m, x, FINEST)
+    right = slip_zone(law, own, cycle, 1.0, n, x, FINEST)
+    total = of.kappa * _slipped(left, m + n, there, x < -m)
+    total += of.lamda * _slipped(right, m + n, there, x > n)
     return 2 / math.pi * abs(total)
 
 
 @loop
 def each_slip_range(law: Any, given: Any, own: Any, out: Any) -> None:
-    """x, a1, c1, a2, c2, dQ, dsigma, m, n, regime, f, E* -> slip."""
+    """a_1, c_1, a_2, c_2, dQ, dsigma, m, n, regime, x, f, E* -> slip."""
     law = opened(law)
     for i in range(given.shape[0]):
-        m, n, regime = given[i, 7], given[i, 8], given[i, 9]
-        out[i, 0] = slip_at(law, own[i], _cycle(given[i]), m, n, regime, given[i, 0])
+        zone = given[i, 6], given[i, 7], given[i, 8]
+        out[i, 0] = _slip(law, own[i], cycle_of(given[i]), zone, given[i, 9])

@@ -1,82 +1,85 @@
-"""Changes in bulk tension at which a cycle is no longer moderate, or one of its slip zones closes.
-
-A row is a1, c1, a2, c2, dQ, f; everything is for E* = 1.
-"""
+"""Changes in bulk tension at which a cycle is no longer moderate, or one of its slip zones closes."""
 
 import math
 from typing import Any
 
-import numpy as np
-
 from ..kernels import kernel, loop, opened
 from ..search import by_distance, narrowed
-from .growth import PARTS, advances, grows, load_path
-from .moderate import LOAD, TILT, A, C
-from .zone import ends_of, exists, resolved, slides
+from .bounded import slipping, zone_of
+from .cycles import Cycle, advances, ends_of, exists, is_steady, resolved, slides
+from .growth import grows
+
+INNER_TENSIONS = 15
+"""Number of tensions between two bounds at which moderate slip is sought."""
 
 HALVINGS = 52
 """Number of bisections of an interval, enough to reach the last bit of float64."""
 
-STEPS = 100
+MAX_STEPS = 100
 """Largest number of steps until a width is found."""
 
 
 @kernel
-def _without_tension(given: Any) -> Any:
-    """A cycle without tension from a1, c1, a2, c2, dQ, f, E*."""
-    cycle = np.empty(7)
-    for i in range(5):
-        cycle[i] = given[i]
-    cycle[4] /= given[6]
-    cycle[5], cycle[6] = 0.0, given[5]
-    return cycle
+def _under(cycle: Any, dsigma: float) -> Cycle:
+    """The cycle with another change in tension."""
+    return Cycle(cycle.a_1, cycle.c_1, cycle.a_2, cycle.c_2, cycle.dQ, dsigma, cycle.f)
 
 
 @kernel
-def _tensions_at_the_start(ends: Any, cycle: Any) -> Any:
+def _without_tension(row: Any) -> Cycle:
+    """A cycle from a_1, c_1, a_2, c_2, dQ, f, E*."""
+    return Cycle(row[0], row[1], row[2], row[3], row[4] / row[6], 0.0, row[5])
+
+
+@kernel
+def _tensions_at_the_start(cycle: Any, ends: Any) -> Any:
     """The changes in tension between which both edges begin to slip forward."""
     lower, upper = -math.inf, math.inf
-    for i in range(2):
-        h = ends[i, A] + ends[i, C]
-        left, right = advances(ends, h, ends[i, A], ends[i, C])
-        lower = max(lower, -8 * (cycle[4] - cycle[6] * abs(left)) / (math.pi * h))
-        upper = min(upper, 8 * (cycle[4] - cycle[6] * abs(right)) / (math.pi * h))
+    for a, c in ((cycle.a_1, cycle.c_1), (cycle.a_2, cycle.c_2)):
+        left, right = advances(ends, a, c)
+        unit = 8 / (math.pi * (a + c))
+        lower = max(lower, -unit * (cycle.dQ - cycle.f * abs(left)))
+        upper = min(upper, unit * (cycle.dQ - cycle.f * abs(right)))
     return lower, upper
 
 
 @kernel
-def _cut_down(law: Any, own: Any, path: Any, trial: Any, good: float, bound: float) -> Any:
-    """The tension closest to a bound at which moderate slip still grows, as it does at `good`."""
-    trial[5] = bound
-    if grows(law, own, path, trial):
-        return bound
-    bad = bound
+def _is_moderate(law: Any, own: Any, cycle: Any, ends: Any, dsigma: float) -> bool:
+    """Whether forward slip at both edges grows to the end under a change in tension."""
+    of = slipping(_under(cycle, dsigma), 1.0, 1.0)
+    m, n, _ = zone_of(law, own, of, ends)
+    return m + n > 0 and grows(law, own, of, ends, m, n)
+
+
+@kernel
+def _cut_down(law: Any, own: Any, cycle: Any, ends: Any, good: float, bad: float) -> float:
+    """The tension closest to `bad` at which slip is still moderate, as it is at `good`."""
+    if _is_moderate(law, own, cycle, ends, bad):
+        return bad
     for _ in range(HALVINGS):
-        trial[5] = (good + bad) / 2
-        if trial[5] in (good, bad):
+        middle = (good + bad) / 2
+        if middle in (good, bad):
             break
-        if grows(law, own, path, trial):
-            good = trial[5]
+        if _is_moderate(law, own, cycle, ends, middle):
+            good = middle
         else:
-            bad = trial[5]
+            bad = middle
     return good
 
 
 @kernel
-def _narrowed(law: Any, own: Any, path: Any, cycle: Any, lower: float, upper: float) -> Any:
+def _narrowed(law: Any, own: Any, cycle: Any, ends: Any, lower: float, upper: float) -> Any:
     """The interval of tensions reduced to those at which moderate slip grows to the end.
 
     First a tension inside this interval is sought, from the middle outward.  Then each bound is
     found by bisection.
     """
-    trial = cycle.copy()
-    for k in range(2 * PARTS - 1):
+    for k in range(INNER_TENSIONS):
         offset = (k + 1) // 2 * (1 if k % 2 else -1)
-        inside = (lower + upper) / 2 + offset * (upper - lower) / (2 * PARTS)
-        trial[5] = inside
-        if grows(law, own, path, trial):
-            lower = _cut_down(law, own, path, trial, inside, lower)
-            return lower, _cut_down(law, own, path, trial, inside, upper)
+        inside = (lower + upper) / 2 + offset * (upper - lower) / (INNER_TENSIONS + 1)
+        if _is_moderate(law, own, cycle, ends, inside):
+            lower = _cut_down(law, own, cycle, ends, inside, lower)
+            return lower, _cut_down(law, own, cycle, ends, inside, upper)
     return math.nan, math.nan
 
 
@@ -98,7 +101,7 @@ def _width_under(law: Any, own: Any, load: float, edge: float, side: float, widt
     width: the first guess.
     """
     search = by_distance(0.0, math.inf, math.inf, width)
-    for _ in range(STEPS):
+    for _ in range(MAX_STEPS):
         width = math.exp(search.y)
         now, rate, _ = _keeping(law, own, edge, width, side)
         search = narrowed(search, now - load, rate * width)
@@ -108,13 +111,13 @@ def _width_under(law: Any, own: Any, load: float, edge: float, side: float, widt
 
 
 @kernel
-def _closing(law: Any, own: Any, ends: Any, cycle: Any, side: float) -> Any:
+def _closing(law: Any, own: Any, cycle: Any, ends: Any, side: float) -> Any:
     """The change in tension at which the zone reaches the smaller contact's edge on one side."""
-    load = (ends[0, LOAD] + ends[1, LOAD]) / 2 - cycle[4] / (2 * cycle[6])
+    load = (ends.load_1 + ends.load_2) / 2 - cycle.dQ / (2 * cycle.f)
     if not load > 0:
         return math.nan
-    edge = min(ends[0, C], ends[1, C]) if side > 0 else min(ends[0, A], ends[1, A])
-    width = max(ends[0, A] + ends[0, C], ends[1, A] + ends[1, C])
+    edge = min(cycle.c_1, cycle.c_2) if side > 0 else min(cycle.a_1, cycle.a_2)
+    width = max(cycle.a_1 + cycle.c_1, cycle.a_2 + cycle.c_2)
     width = _width_under(law, own, load, edge, side, width)
     if not width > 0:
         return math.nan
@@ -122,44 +125,43 @@ def _closing(law: Any, own: Any, ends: Any, cycle: Any, side: float) -> Any:
     # next to a kink, rounding error in the position of the other edge changes the tilt: use the
     # missing load to correct it
     tilt += side * 4 * (load - now) / (math.pi * width)
-    return 4 * cycle[6] * ((ends[0, TILT] + ends[1, TILT]) / 2 - tilt)
+    return 4 * cycle.f * ((ends.tilt_1 + ends.tilt_2) / 2 - tilt)
 
 
 @loop
 def each_tension_threshold(law: Any, given: Any, own: Any, out: Any) -> None:
     """The changes in tension between which the moderate solution is exact.
 
-    a1, c1, a2, c2, dQ, f, E* -> lower, upper.
+    a_1, c_1, a_2, c_2, dQ, f, E* -> lower, upper.
     """
     law = opened(law)
     for i in range(given.shape[0]):
-        cycle, body = _without_tension(given[i]), own[i]
-        ends = ends_of(law, body, cycle)
+        cycle, E_star = _without_tension(given[i]), given[i, 6]
+        ends = ends_of(law, own[i], cycle)
         lower = upper = math.nan
-        if exists(ends, cycle) and not slides(ends, cycle):
-            lower, upper = _tensions_at_the_start(ends, cycle)
+        if exists(cycle, ends) and not slides(cycle, ends):
+            lower, upper = _tensions_at_the_start(cycle, ends)
         if not lower <= upper:
             lower = upper = math.nan
-        elif cycle[0] != cycle[2] or cycle[1] != cycle[3]:
-            path = load_path(law, body, ends)
-            lower, upper = _narrowed(law, body, path, cycle, lower, upper)
-        out[i, 0], out[i, 1] = given[i, 6] * lower, given[i, 6] * upper
+        elif not is_steady(cycle):
+            lower, upper = _narrowed(law, own[i], cycle, ends, lower, upper)
+        out[i, 0], out[i, 1] = E_star * lower, E_star * upper
 
 
 @loop
 def each_closing_tension(law: Any, given: Any, own: Any, out: Any) -> None:
     """The changes in tension at which one slip zone of the moderate solution closes.
 
-    a1, c1, a2, c2, dQ, f, E* -> lower, upper.
+    a_1, c_1, a_2, c_2, dQ, f, E* -> lower, upper.
     """
     law = opened(law)
     for i in range(given.shape[0]):
-        cycle = _without_tension(given[i])
+        cycle, E_star = _without_tension(given[i]), given[i, 6]
         ends = ends_of(law, own[i], cycle)
         lower = upper = math.nan
-        if exists(ends, cycle) and resolved(ends):
-            lower = _closing(law, own[i], ends, cycle, -1.0)
-            upper = _closing(law, own[i], ends, cycle, 1.0)
+        if exists(cycle, ends) and resolved(cycle, ends):
+            lower = _closing(law, own[i], cycle, ends, -1.0)
+            upper = _closing(law, own[i], cycle, ends, 1.0)
             if lower > upper:  # at any tension the zone is wider than the smaller contact
                 lower = upper = math.nan
-        out[i, 0], out[i, 1] = given[i, 6] * lower, given[i, 6] * upper
+        out[i, 0], out[i, 1] = E_star * lower, E_star * upper
