@@ -16,7 +16,6 @@ from .forward import each_contact, each_contact_at_tilt, each_pressure, each_ser
 from .body import Body
 from .reasons import reason
 from .slip.march import marched
-from .slip.zone import each_stick_zone as each_stick_zone_with_mixed
 from .slip.series import each_slip_zones
 from .slip.shear import each_shear_change, each_slip_range, rises_and_falls
 from .slip.threshold import each_closing_tension, each_tension_threshold
@@ -144,16 +143,34 @@ def stick_zone(
     """
     if not isinstance(mixed, bool | np.bool_):
         raise TypeError(f"mixed must be True or False, one value for all; got {mixed!r:.60}")
+    given = _between(first, second, dQ=dQ, dsigma=dsigma)
+    if mixed:
+        numbers = numbers_of(given, {"f": f, "E_star": E_star, **own})
+        if any_lazy(numbers.values()):
+            call = partial(_mixed_chunk, body, tuple(own))
+            lazy: StickZone = over_chunks(call, "stick_zone", numbers)
+            return lazy
+        return _mixed_chunk(body, tuple(own), numbers)
     zone: StickZone = solved(
-        each_stick_zone_with_mixed if mixed else each_stick_zone,
-        body,
-        _between(first, second, dQ=dQ, dsigma=dsigma),
-        {"f": f, "E_star": E_star},
-        own,
-        StickZone,
-        whole=("regime",),
+        each_stick_zone, body, given, {"f": f, "E_star": E_star}, own, StickZone, ("regime",)
     )
     return zone
+
+
+def _mixed_chunk(body: Body, names: tuple[str, ...], numbers: dict[str, Any]) -> StickZone:
+    """Stick zones, also of mixed cycles."""
+    from .slip.mixed import with_mixed  # needs SciPy
+
+    own = {name: numbers.pop(name) for name in names}
+    f, E_star = numbers.pop("f"), numbers.pop("E_star")
+    with np.errstate(all="ignore"):
+        loads = {name: numbers[name] / E_star for name in ("dQ", "dsigma")}
+    names = ("a_1", "c_1", "a_2", "c_2")
+    cycle = {**dict(zip(names, numbers.values(), strict=False)), **loads}
+    zone = solved(
+        each_stick_zone, body, cycle, {"f": f, "E_star": 1.0}, own, StickZone, ("regime",)
+    )
+    return with_mixed(body, own, cycle, f, zone)
 
 
 def why(

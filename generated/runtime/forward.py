@@ -1,4 +1,4 @@
-"""Contacts under given loads, and their state, pressure and series, case by case.
+"""Contacts under given loads, their state, pressure and series, and the breaks of a body.
 
 The state, the pressure and the series are those of bodies without closed formulas for them.
 """
@@ -6,6 +6,9 @@ The state, the pressure and the series are those of bodies without closed formul
 import math
 from typing import Any
 
+import numpy as np
+
+from .body import Body
 from .inverse import contact, contact_at_tilt
 from .kernels import loop, opened
 
@@ -58,3 +61,23 @@ def each_contact_at_tilt(law: Any, given: Any, own: Any, out: Any) -> None:
         P, alpha, E_star = given[i, 0], given[i, 1], given[i, 2]
         a, c = contact_at_tilt(law, own[i], P / E_star, alpha)
         out[i, 0], out[i, 1], out[i, 2] = a, c, alpha if a == a else math.nan
+
+
+@loop
+def each_break(law: Any, number: Any, own: Any, out: Any) -> None:
+    """As many breaks of the curve as `out` has columns, and their number."""
+    law = opened(law)
+    for i in range(out.shape[0]):
+        breaks = law.breaks(own[i])
+        number[i, 0] = breaks.size
+        for k in range(min(breaks.size, out.shape[1])):
+            out[i, k] = breaks[k]
+
+
+def breaks_of(body: Body, own: dict[str, Any]) -> Any:
+    """The points where the formula of the curve changes."""
+    number, parameters = np.zeros((1, 1)), np.array([[*own.values()]], dtype=float)
+    each_break(body.law, number, parameters, np.empty((1, 0)))
+    out = np.empty((1, int(number[0, 0])))
+    each_break(body.law, number, parameters, out)
+    return out[0]

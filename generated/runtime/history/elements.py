@@ -95,26 +95,6 @@ def elements_of(ends: Array) -> Elements:
     return Elements(ends, widths, (ends[1:] + ends[:-1]) / 2, A, (K + K.T) / 2, rise)
 
 
-@loop
-def each_break(law: Any, number: Any, own: Any, out: Any) -> None:
-    """As many breaks of the curve as `out` has columns, and their number."""
-    law = opened(law)
-    for i in range(out.shape[0]):
-        breaks = law.breaks(own[i])
-        number[i, 0] = breaks.size
-        for k in range(min(breaks.size, out.shape[1])):
-            out[i, k] = breaks[k]
-
-
-def breaks_of(body: Body, own: Own) -> Array:
-    """The points where the formula of the curve changes."""
-    number, parameters = np.zeros((1, 1)), np.array([[*own.values()]], dtype=float)
-    each_break(body.law, number, parameters, np.empty((1, 0)))
-    out = np.empty((1, int(number[0, 0])))
-    each_break(body.law, number, parameters, out)
-    return out[0]
-
-
 # ---------------------------------------------------------------- values between the middles
 
 

@@ -23,7 +23,8 @@ import numpy as np
 from ..cycle import Own
 from ..body import Body
 from ..types import Array, History, Regime, SteadyCycle
-from .elements import Elements, breaks_of, elements_of, mesh, pressures, value_at
+from ..forward import breaks_of
+from .elements import Elements, elements_of, mesh, pressures, value_at
 from .path import Path, path, touching
 from .steps import Interface
 from .zones import permanent, sticking

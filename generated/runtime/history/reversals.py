@@ -44,7 +44,7 @@ from ..cycle import Own, contact, contact_at_tilt, pressure
 from ..body import Body
 from ..kernels import kernel, loop, opened
 from ..types import Array, History, Regime
-from .elements import breaks_of
+from ..forward import breaks_of
 from .nearest import ROUNDING
 
 IN_PHASE = 1e-9

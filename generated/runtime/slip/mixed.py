@@ -23,452 +23,422 @@ half-cycle has three phases:
 Each half-cycle starts from the end of the other one, with the sign of shear reversed.  In phase 1
 the reversed slip on the right therefore leaves 2 f p less the gain, the shear gained since the
 point stuck again; the gain is 2 f p where phase 3 brought the point to the friction
-limit.  The gain is found by iteration, in tables of more and more terms, until m and n converge.
+limit.  The gain is found by iteration, as series of more and more terms, until m and n converge.
 
 The shear traction must not be driven further where it has been at the friction limit since the last
 half-cycle: on the left, and on the right where nothing was gained.  In phase 1 its rate changes
 sign at mid + H/2, where mid is the middle of the current stick zone.  This point is n when the
 phase ends, and lies in neither of these regions when the phase begins.
 
-In phases 1 and 3 slip grows as bounded.py describes; in phase 3 the gain is subtracted.
+In phases 1 and 3 slip grows as bounded.py describes, with the integrals L and R and dq; in phase 3
+the gain is subtracted.  All functions of position take arrays.
 """
 
 import math
+from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial.chebyshev import Chebyshev, chebpts1, chebvander
+from scipy.optimize import brentq, root
 
-from ..kernels import kernel, loop, opened
-from ..search import between, narrowed
-from ..types import MIXED, UNSOLVED
-from .bounded import (
-    Friction,
-    Gain,
-    change,
-    friction,
-    friction_limits,
-    no_gain,
-    oriented,
-    placed,
-    remaining_friction,
-    sense_of,
-    share,
-    solved,
-    turning_width,
-)
-from .moderate import patch
+from ..arrays import solved
+from ..body import Body
+from ..elementary import EPS
+from ..forward import breaks_of, each_pressure
+from ..types import Array, Regime, StickZone
 from .quadrature import double_exponential
-from .tables import (
-    ANGLES,
-    GAUSS,
-    GAUSS_WEIGHTS,
-    Table,
-    chebyshev_place,
-    series_of,
-    summed,
-    table_place,
-    tabled,
-)
-from .zone import ends_of, over_modulus, stick_zone
 
 TERMS = (16, 24, 36, 54)
-"""Numbers of terms of the tables, in turn."""
+"""Numbers of terms of the series, in turn."""
 
-LEVEL = 2
-"""Level of the quadrature of slip zones."""
+ZONE_RTOL = 1e-7
+"""If zones by two numbers of terms agree to within this, relative to the contact width, the finer
+one is exact."""
 
-AGREED = 1e-7
-"""If zones by two tables agree to within this, relative to the contact width, the finer one is
-exact."""
+MAX_ROUNDS = 20
+"""Largest number of iterations of the gain; three to five are common."""
 
-ROUNDS = 20
-"""Largest number of iterations; three to five are common."""
-
-REST = 1e-9
+ROUND_RTOL = 1e-9
 """Change of m and n between iterations that counts as zero, relative to the contact width."""
 
-SLACK = 1e-6
+FRICTION_RTOL = 1e-6
 """Allowance for rounding, relative to friction."""
 
 STRETCHES = (1 / 64, 1 / 16, 1 / 4, 1.0)
-"""Lengths of the tables of phase 2, relative to the distance to its end."""
+"""Lengths of the series of phase 2 that are tried, relative to the distance to its end."""
 
-NEAR = 1e-4
-"""Distance, over H, at which the square roots at the edges are measured for a first guess."""
+_NODES, _WEIGHTS = double_exponential(1 / 12)
+_ANGLES, _GAUSS = ((1 + v) / 2 for v in np.polynomial.legendre.leggauss(64))
+_GAUSS -= 0.5  # rule on (0, 1)
 
-STEPS = 80
-"""Largest number of steps to find the end of phase 2."""
+_UNIT = {"E_star": 1.0}
 
-STRIP = 1e-4
-"""Width of the strip beyond the moderate zone in which the moderate solution stands in for tables
-that fail, as (a + n - H)/(a + c).  It is off by less than the square of this."""
-
-CROWDED, CROWDED_WEIGHTS = double_exponential(2.0**-4)
-"""The quadrature of the gain, which has square roots and near singularities at both ends."""
+Place = Callable[[Array], Array]
+"""A function of position; it takes and returns arrays."""
 
 
-class Receded(NamedTuple):
-    """Phase 2, in legs between the breaks that m passes, with m and lambda at its end.
+class _HalfCycle(NamedTuple):
+    """A half-cycle with dsigma > 0.
 
-    tops     m at the start of each leg
-    spans    length of the table of each leg
-    rates    Lambda of each leg as a series in s, mu = top - span sin(pi s/2)**2, one row per leg
-    m, part  m and lambda at the end
-    s        end of the last leg
-    stretch  number of the stretch that the last table spans, four per leg
+    limit  2 f p as a function of position; zero at a corner
+    cuts   breaks of the body
+    H      the width of a stick zone whose right end is not driven
     """
 
-    tops: Any
-    spans: Any
-    rates: Any
-    m: float
-    part: float
-    s: float
-    stretch: int
+    limit: Place
+    cuts: Array
+    a: float
+    c: float
+    dQ: float
+    dsigma: float
+    H: float
 
 
-class State(NamedTuple):
-    """The state that a half-cycle passes on to the next: its zone, the gain, and first guesses.
+class _Zone(NamedTuple):
+    """A slip zone: its nodes y, their weights, the shear left by slip there and at its start."""
+
+    y: Array
+    weight: Array
+    r: Array
+    at_start: float
+    length: float
+
+
+class _Gain:
+    """The shear gained since points began to stick again, as a series between `start` and `end`.
+
+    near = 0: analytic in the square roots of the distances from both ends
+    near > 0: analytic in sqrt(y) and sqrt(y + near), y = x - start
+    rubs:     whether points beyond `end` are at the friction limit, where the gain is 2 f p;
+              otherwise nothing was gained there
+    """
+
+    def __init__(
+        self,
+        gained: Place,
+        start: float,
+        end: float,
+        count: int,
+        near: float = 0.0,
+        rubs: bool = False,
+    ) -> None:
+        self.start, self.end, self.near, self.rubs = start, end, near, rubs
+        if near > 0:
+            self._reach = np.arcsinh(np.sqrt((end - start) / near))
+        values = lambda s: gained(self._place(s))  # noqa: E731
+        self._series = Chebyshev.interpolate(values, count - 1, domain=(0, 1))
+
+    def _place(self, s: Array) -> Array:
+        if self.near > 0:
+            return self.start + self.near * np.sinh(self._reach * s) ** 2
+        return self.start + (self.end - self.start) * np.sin(np.pi / 2 * s) ** 2
+
+    def __call__(self, x: Array) -> Array:
+        """The gain at x up to `end`; before `start`, that at `start`."""
+        y = np.clip(x - self.start, 0.0, self.end - self.start)
+        if self.near > 0:
+            return self._series(np.arcsinh(np.sqrt(y / self.near)) / self._reach)
+        return self._series(2 / np.pi * np.arcsin(np.sqrt(y / (self.end - self.start))))
+
+
+class _Leg(NamedTuple):
+    """A part of phase 2, in which m falls from `top` by `span` sin(pi s/2)**2, s from 0 to `end`.
+
+    rate  Lambda as a series in s
+    """
+
+    top: float
+    span: float
+    rate: Chebyshev
+    end: float = 1.0
+
+    @property
+    def bottom(self) -> float:
+        """m at the end."""
+        return float(self.top - self.span * np.sin(np.pi / 2 * self.end) ** 2)
+
+    def elapsed(self, s: float) -> float:
+        """The part of the half-cycle up to s: span int_0^s (pi/2) sin(pi s) Lambda ds."""
+        at = s * _ANGLES
+        rates = np.sin(np.pi * at) * self.rate(at)
+        return float(np.pi / 2 * self.span * s * np.sum(_GAUSS * rates))
+
+
+class _State(NamedTuple):
+    """What a half-cycle passes on to the next.
 
     m, n         the permanent stick zone; NaN unless the half-cycle has these phases
-    gain         the gain on the right
-    left, right  slip zones of phase 3
-    stretch      stretch at which the tables of phase 2 start
+    gain         the gain on the right; None if there is none
+    left, right  slip zones of phase 3, a first guess for the next one
     """
 
-    m: float
-    n: float
-    gain: Any
-    left: float
-    right: float
-    stretch: int
+    m: float = math.nan
+    n: float = math.nan
+    gain: _Gain | None = None
+    left: float = 0.0
+    right: float = 0.0
 
 
-@kernel
-def _with_gains(of: Any, part: float, a: float, kappa: float, left: Any, right: Any) -> Any:
-    """Friction for a part of the loads, with slip zones on the left up to a, and gains."""
-    cycle, cuts = of.cycle.copy(), np.empty(of.cuts.size + 4)
-    cycle[4], cycle[5] = part * cycle[4], part * cycle[5]
-    cuts[0], cuts[1] = left.table.start, left.table.end
-    cuts[2], cuts[3] = right.table.start, right.table.end
-    for i in range(of.cuts.size):
-        cuts[4 + i] = of.cuts[i]
-    return Friction(
-        of.pressure, of.own, of.sense, cycle, cuts, a, of.c, 0.0, 0.0, kappa, left, right
-    )
+# ---------------------------------------------------------------- slip that grows
 
 
-# ---------------------------------------------------------------- Abel's equation
+def _remaining(limit: Place, gain: _Gain | None, x: Array) -> Array:
+    """2 f p less the gain."""
+    whole = limit(x)
+    if gain is None:
+        return whole
+    return np.where(x < gain.end, whole - gain(x), 0.0 if gain.rubs else whole)
 
 
-@kernel
-def _eliminated(rows: Any) -> Any:
-    """The solution of linear equations by Gaussian elimination; the right-hand side comes last."""
-    count = len(rows)
-    for k in range(count):
-        pivot = k
-        for i in range(k + 1, count):
-            if abs(rows[i, k]) > abs(rows[pivot, k]):
-                pivot = i
-        if not abs(rows[pivot, k]) > 0:
-            return np.full(count, math.nan)
-        for j in range(k, count + 1):
-            rows[k, j], rows[pivot, j] = rows[pivot, j], rows[k, j]
-        for i in range(k + 1, count):
-            factor = rows[i, k] / rows[k, k]
-            for j in range(k, count + 1):
-                rows[i, j] -= factor * rows[k, j]
-    solution = np.empty(count)
-    for k in range(count - 1, -1, -1):
-        solution[k] = rows[k, count]
-        for j in range(k + 1, count):
-            solution[k] -= rows[k, j] * solution[j]
-        solution[k] /= rows[k, k]
-    return solution
+def _zone(side: float, start: float, edge: float, cuts: Array, r: Place) -> _Zone:
+    """The slip zone from `start` to `edge`, both counted outward, where slip leaves the shear r."""
+    length, inner = edge - start, np.sort(side * cuts - start)
+    ends = np.concatenate([[0.0], inner[(inner > 0) & (inner < length)], [length]])
+    parts = np.diff(ends)[:, None]
+    y, weight = (ends[:-1, None] + parts * _NODES).ravel(), (parts * _WEIGHTS).ravel()
+    values = r(side * (start + np.append(y, 0.0)))
+    return _Zone(y, weight, values[:-1], values[-1], length)
 
 
-@kernel
-def abel(width: float, right: Any) -> Any:
-    """The series Lambda(s) whose integrals at the points s are `right`.
+def _cuts(of: _HalfCycle, *gains: _Gain | None) -> Array:
+    """The points at which slip zones are cut: breaks of the body and ends of gains."""
+    ends = [end for gain in gains if gain for end in (gain.start, gain.end)]
+    return np.concatenate([of.cuts, ends])
 
-    int_0^(pi/2) sqrt(width - (v sin(phi))**2) cos(phi) Lambda dphi = right,   v = sin(pi s/2),
-    with Lambda taken at v cos(phi) in place of v
-    """
-    count = len(right)
-    rows = np.zeros((count, count + 1))
-    for i in range(count):
-        v = math.sin(math.pi / 2 * chebyshev_place(i, count))
-        for j in range(ANGLES):
-            phi = math.pi / 2 * GAUSS[j]
-            far = math.sqrt(max(width - (v * math.sin(phi)) ** 2, 0.0)) * math.cos(phi)
-            t = 4 / math.pi * math.asin(v * math.cos(phi)) - 1
-            term = math.pi / 2 * GAUSS_WEIGHTS[j] * far
-            last = t * term
-            for k in range(count):
-                rows[i, k] += term
-                term, last = 2 * t * term - last, term
-        rows[i, count] = right[i]
-    return _eliminated(rows)
+
+def _sums(left: _Zone, right: _Zone, stuck: float) -> tuple[float, float]:
+    """L and R."""
+    roots = [np.sqrt((stuck + zone.y) / zone.y) for zone in (left, right)]
+    forces = left.weight * left.r, right.weight * right.r
+    L = np.sum(forces[0] * roots[0]) + np.sum(forces[1] / roots[1])
+    return L, np.sum(forces[0] / roots[0]) + np.sum(forces[1] * roots[1])
+
+
+def _change(left: _Zone, right: _Zone, m: float, n: float, x: Array) -> Array:
+    """dq at x in the stick zone."""
+    total, stuck = np.zeros(np.shape(x)), m + n
+    for zone, near, far in ((left, x + m, n - x), (right, n - x, x + m)):
+        near, far = np.maximum(near, 0.0), np.maximum(far, 0.0)
+        singular = np.sqrt(zone.y * (zone.y + stuck)) * (zone.y + near[..., None])
+        total += np.sqrt(near * far) * np.sum(zone.weight * (zone.r - zone.at_start) / singular, -1)
+        angle = np.arctan2(np.sqrt(zone.length * far), np.sqrt(near * (zone.length + stuck)))
+        total += 2 * zone.at_start * angle
+    return total / np.pi
 
 
 # ---------------------------------------------------------------- the three phases
 
 
-@kernel
-def _elapsed(rates: Any, span: float, s: float) -> float:
-    """The part of the half-cycle since a leg began:  span int_0^s (pi/2) sin(pi s) Lambda ds."""
-    part = 0.0
-    for i in range(len(GAUSS)):
-        part += GAUSS_WEIGHTS[i] * math.sin(math.pi * s * GAUSS[i]) * summed(rates, s * GAUSS[i])
-    return math.pi / 2 * span * s * part
+def _phase_1(of: _HalfCycle, gain: _Gain | None) -> tuple[float, float, float, Place]:
+    """m, n, lambda and dq when m + n = H."""
+    cuts = _cuts(of, gain)
+
+    def zones(n: float) -> tuple[_Zone, _Zone]:
+        left = _zone(-1.0, of.H - n, of.a, cuts, of.limit)
+        return left, _zone(1.0, n, of.c, cuts, lambda x: -_remaining(of.limit, gain, x))
+
+    low, high = of.H - of.a + 1e-12 * of.H, of.c - 1e-12 * of.H
+    if not _sums(*zones(low), of.H)[1] < 0 < _sums(*zones(high), of.H)[1]:
+        return math.nan, math.nan, math.nan, of.limit
+    n = brentq(lambda n: _sums(*zones(n), of.H)[1], low, high, xtol=1e-14 * of.H, rtol=1e-14)
+    found = zones(n)
+    part = _sums(*found, of.H)[0] / (2 * of.dQ)
+    return of.H - n, n, part, partial(_change, *found, of.H - n, n)
 
 
-@kernel
-def _gained(of: Any, receded: Any, x: float) -> float:
-    """(dsigma/4) int sqrt((H - x - mu)/(x + mu)) Lambda dmu over mu > m, while x sticks."""
-    total, legs = 0.0, len(receded.tops)
-    for leg in range(legs):
-        bottom = receded.tops[leg + 1] if leg < legs - 1 else receded.m
-        distance = turning_width(of.cycle) - x - receded.tops[leg]
-        top = min(0.0, distance)
-        length = receded.tops[leg] + top - bottom
-        if length > 0:
-            rates, span = receded.rates[leg], receded.spans[leg]
-            for i in range(len(CROWDED)):
-                below_top = length * CROWDED[len(CROWDED) - 1 - i]
-                s = 2 / math.pi * math.asin(math.sqrt(min((below_top - top) / span, 1.0)))
-                above, below = below_top + (distance - top), (x + bottom) + length * CROWDED[i]
-                weight = length * CROWDED_WEIGHTS[i]
-                total += weight * summed(rates, s) * math.sqrt(above / below)
-    return float(of.cycle[5] / 4 * total)
+def _gained(of: _HalfCycle, legs: list[_Leg], x: Array) -> Array:
+    """(dsigma/4) int sqrt((H - x - mu)/(x + mu)) Lambda dmu over the legs, while x sticks."""
+    x, total = np.asarray(x)[..., None], np.zeros(np.shape(x))
+    for leg in legs:
+        distance = of.H - x - leg.top
+        top = np.minimum(0.0, distance)
+        length = np.maximum(leg.top + top - leg.bottom, 0.0)
+        below_top = length * _NODES[::-1]
+        s = 2 / np.pi * np.arcsin(np.sqrt(np.clip((below_top - top) / leg.span, 0.0, 1.0)))
+        above, below = below_top + (distance - top), x + leg.bottom + length * _NODES
+        root_ = np.sqrt(np.where(length > 0, above / below, 0.0))
+        total += np.sum(length * _WEIGHTS * leg.rate(s) * root_, axis=-1)
+    return of.dsigma / 4 * total
 
 
-@kernel
-def _rates(of: Any, grown: Any, before: Any, span: float, count: int) -> Any:
-    """Lambda on the next leg, down to m - span, given the legs before it."""
-    s = np.array([chebyshev_place(i, count) for i in range(count)])
-    places = span * np.sin(math.pi / 2 * s) ** 2 - before.m
-    right = friction_limits(of, places)
-    for i in range(count):
-        right[i] -= change(grown, places[i]) + _gained(of, before, places[i])
-        right[i] *= 2 / (of.cycle[5] * span * math.sin(math.pi / 2 * s[i]))
-    return abel(turning_width(of.cycle) / span, right)
+def _next_leg(
+    of: _HalfCycle, dq: Place, before: list[_Leg], top: float, span: float, count: int
+) -> _Leg:
+    """The next leg, given those before it: Abel's equation at Chebyshev points.
 
+    At m = top - span v**2 it is, with Lambda taken at v cos(phi) in place of v,
 
-@kernel
-def _next_break(of: Any, m: float, least: float) -> float:
-    """The next break that m passes as it falls; `least` if there is none."""
-    next_break = least
-    for place in of.cuts:
-        if next_break < -place < m:
-            next_break = -place
-    return next_break
-
-
-@kernel
-def _with_leg(before: Any, span: float, rates: Any, part: float, stretch: int) -> Any:
-    """Append one leg, which begins at the end of the last one and extends over its whole table."""
-    legs = len(before.tops)
-    tops, spans = np.full(legs + 1, before.m), np.full(legs + 1, span)
-    series = np.empty((legs + 1, len(rates)))
-    tops[:legs], spans[:legs], series[:legs] = before.tops, before.spans, before.rates
-    series[legs] = rates
-    return Receded(tops, spans, series, before.m - span, part, 1.0, stretch)
-
-
-@kernel
-def _ending(receded: Any, m: float, part: float, s: float) -> Any:
-    """The same legs with another end."""
-    return Receded(receded.tops, receded.spans, receded.rates, m, part, s, receded.stretch)
-
-
-@kernel
-def _cut_off(receded: Any, part: float) -> Any:
-    """The legs ended in the last one by the end of the half-cycle; part: lambda before that leg."""
-    top, span, rates = receded.tops[-1], receded.spans[-1], receded.rates[-1]
-    search = between(0.0, 1.0, math.nan, 2.0)
-    for _ in range(STEPS if receded.part < math.inf else 0):
-        s = search.y
-        excess = part + _elapsed(rates, span, s) - 1
-        rate = math.pi / 2 * span * math.sin(math.pi * s) * summed(rates, s)
-        search = narrowed(search, excess, rate)
-        if search.step == 0:
-            return _ending(receded, top - span * math.sin(math.pi / 2 * s) ** 2, 1.0, s)
-    return _ending(receded, math.nan, 1.0, math.nan)
-
-
-@kernel
-def _recede(of: Any, grown: Any, middle: float, part: float, stretch: int, count: int) -> Any:
-    """Phase 2, until all of the right edge sticks or the half-cycle ends.
-
-    The range of m is not known beforehand, so that the tables are extended step by step.  A new leg
-    begins at each break, because Lambda has a square root before it.
+        int_0^(pi/2) sqrt(H/span - (v sin(phi))**2) cos(phi) Lambda dphi = right.
     """
-    sticks_all_right, nowhere = turning_width(of.cycle) - of.c, np.empty(0)
-    least, legs = max(sticks_all_right, -middle), 0
-    receded = Receded(nowhere, nowhere, np.empty((0, count)), grown.m, part, math.nan, 0)
-    while receded.m > least:
-        before, full = receded, receded.m - _next_break(of, receded.m, least)
-        for i in range(max(min(stretch - 4 * legs, 3), 0), len(STRETCHES)):
-            span = STRETCHES[i] * full
-            rates = _rates(of, grown, before, span, count)
-            elapsed = before.part + _elapsed(rates, span, 1.0)
-            receded = _with_leg(before, span, rates, elapsed, 4 * legs + i)
-            if not elapsed < 1:
-                return _cut_off(receded, before.part)
-        legs += 1
-    return receded if sticks_all_right >= -middle else _ending(receded, math.nan, 1.0, math.nan)
+    v = np.sin(np.pi / 4 * (chebpts1(count) + 1))
+    x, phi = span * v**2 - top, np.pi / 2 * _ANGLES
+    right = (of.limit(x) - dq(x) - _gained(of, before, x)) * 2 / (of.dsigma * span * v)
+    far = np.sqrt(np.maximum(of.H / span - np.outer(v, np.sin(phi)) ** 2, 0.0)) * np.cos(phi)
+    t = 4 / np.pi * np.arcsin(np.outer(v, np.cos(phi))) - 1
+    matrix = np.einsum("ij,ijk->ik", np.pi / 2 * _GAUSS * far, chebvander(t, count - 1))
+    return _Leg(top, span, Chebyshev(np.linalg.solve(matrix, right), domain=(0, 1)))
 
 
-@kernel
-def _gain_of_phase_2(
-    of: Any, receded: Any, grown: Any, start: float, end: float, near: float, count: int
-) -> Any:
-    """The gain of phase 2.  near > 0: the gain on the left, where the shear of phase 1 is added."""
-    values = np.empty(count)
-    for i in range(count):
-        x = table_place(start, end, near, i, count)
-        values[i] = _gained(of, receded, x)
-        if near > 0:
-            values[i] += change(grown, x)
-    return Gain(Table(start, end, near, series_of(values)), 0.0)
+def _phase_2(
+    of: _HalfCycle, dq: Place, m: float, part: float, middle: float, count: int
+) -> tuple[list[_Leg], float]:
+    """The legs until all of the right edge sticks or the half-cycle ends, and lambda then.
+
+    The range of m is not known beforehand, so that longer and longer series are tried.  A new leg
+    begins at each break, because Lambda has a square root before it.  No legs if m passes `middle`.
+    """
+    sticks_all_right, legs = of.H - of.c, list[_Leg]()
+    least = max(sticks_all_right, -middle)
+    while m > least:
+        full, before = m - max([least, *(-at for at in of.cuts if least < -at < m)]), part
+        for stretch in STRETCHES:
+            leg = _next_leg(of, dq, legs, m, stretch * full, count)
+            part = before + leg.elapsed(1.0)
+            if part >= 1:
+                end = brentq(lambda s: before + leg.elapsed(s) - 1, 0.0, 1.0, xtol=1e-15)  # noqa: B023
+                return [*legs, leg._replace(end=end)], 1.0
+        if not part < 1:
+            return [], math.nan
+        legs, m = [*legs, leg], leg.bottom
+    return (legs, part) if sticks_all_right >= -middle else ([], math.nan)
 
 
-@kernel
-def _regrown(of: Any, left: float, right: float) -> Any:
-    """Slip zones of phase 3: from those of the last half-cycle, or else from a first guess.
+def _phase_3(
+    of: _HalfCycle, m: float, part: float, gains: tuple[_Gain, _Gain], guess: tuple[float, float]
+) -> tuple[float, float, Place]:
+    """The slip zones in the contact [-m, c], whose width is H, and dq.
 
     The first guess takes the remaining friction at both edges as square roots.  At the start of
     phase 3 the left edge is driven by 2 dQ and the right one not at all; later the right one is
     driven in proportion to the loss of width of the stick zone.
     """
-    if left > 0:
-        slip = solved(of, left, right, LEVEL)
-        if slip.d_left > 0:
-            return slip
-    H, near = turning_width(of.cycle), NEAR * turning_width(of.cycle)
-    scale = math.pi / 2 * math.sqrt(H / near)
-    at_left = scale * remaining_friction(of, of.left, np.array([near - of.a]))[0]
-    at_right = scale * remaining_friction(of, of.right, np.array([of.c - near]))[0]
-    left, right = H / 4, H / 4
-    if at_left > 0:
-        left = min(2 * of.cycle[4] / at_left, left)
-    growth = math.pi * of.cycle[5] / 8
-    if at_right > growth:
-        right = min(max(growth * left / (at_right - growth), 1e-9 * H), right)
-    return solved(of, left, right, LEVEL)
+    at_left, at_right = (partial(_remaining, of.limit, gain) for gain in gains)
+    cuts, dQ, growth = _cuts(of, *gains), part * of.dQ, np.pi * part * of.dsigma / 8
+    if not guess[0] > 0:
+        near, most = 1e-4 * of.H, of.H / 4
+        scale = np.pi / 2 * math.sqrt(of.H / near)
+        left = min(2 * dQ / max(scale * float(at_left(near - m)), EPS * dQ), most)
+        drive = max(scale * float(at_right(of.c - near)) - growth, EPS * growth)
+        guess = left, min(max(growth * left / drive, 1e-9 * of.H), most)
+
+    def zones(left: float, right: float) -> tuple[_Zone, _Zone]:
+        at_c = _zone(1.0, of.c - right, of.c, cuts, at_right)
+        return _zone(-1.0, m - left, m, cuts, at_left), at_c
+
+    def lengths(logarithms: Array) -> Array:
+        """Both slip zones from the logarithms of their ratios to the stick zone."""
+        ratios = np.exp(logarithms)
+        return of.H * ratios / (1 + np.sum(ratios))
+
+    def off(logarithms: Array) -> Array:
+        left, right = lengths(logarithms)
+        stuck = of.H - left - right
+        L, R = _sums(*zones(left, right), stuck)
+        return np.array([L - dQ - stuck * growth, R - dQ + stuck * growth]) / dQ
+
+    found = root(off, np.log(np.array(guess) / (of.H - sum(guess))), tol=1e-13)
+    if not np.max(np.abs(found.fun)) < 1e-9:
+        return math.nan, math.nan, of.limit
+    left, right = lengths(found.x)
+    return left, right, partial(_change, *zones(left, right), m - left, of.c - right)
 
 
-@kernel
-def _half_cycle(of: Any, middle: float, begun: Any, count: int) -> Any:
-    """The zone and the gain at the end of a half-cycle, by tables with `count` terms."""
-    nothing = State(math.nan, math.nan, begun.gain, math.nan, math.nan, 0)
-    c, H = of.c, turning_width(of.cycle)
-    of = _with_gains(of, 1.0, of.a, -1.0, no_gain(), begun.gain)
-    grown = placed(of, H, begun.n, LEVEL)
-    n_1, part = grown.n, share(of, grown)
-    if not (0 < part < 1 and -grown.m < middle < n_1 and grown.m <= of.a):
+def _half_cycle(of: _HalfCycle, middle: float, begun: _State, count: int) -> _State:
+    """The zone and the gain at the end of a half-cycle, by series with `count` terms."""
+    nothing, s = _State(gain=begun.gain), (chebpts1(count) + 1) / 2
+    m_1, n_1, part, dq_1 = _phase_1(of, begun.gain)
+    if not (0 < part < 1 and -m_1 < middle < n_1 and m_1 <= of.a):
         return nothing
-    receded = _recede(of, grown, middle, part, begun.stretch, count)
-    if not receded.m < grown.m:
+    legs, part = _phase_2(of, dq_1, m_1, part, middle, count)
+    if not legs or min(np.min(leg.rate(leg.end * s)) for leg in legs) < 0:
         return nothing
-    for leg in range(len(receded.tops)):
-        end = receded.s if leg == len(receded.tops) - 1 else 1.0
-        for i in range(count):
-            if not summed(receded.rates[leg], end * chebyshev_place(i, count)) >= 0:
-                return nothing
-    m, n, left, right = receded.m, H - receded.m, 0.0, 0.0
-    gain_right = _gain_of_phase_2(of, receded, grown, n_1, min(n, c), 0.0, count)
-    if not receded.part < 1:
-        return State(m, n_1, gain_right, left, right, receded.stretch)
+    m, gained = legs[-1].bottom, partial(_gained, of, legs)
+    gain = _Gain(gained, n_1, min(of.H - m, of.c), count)
+    if part == 1:
+        return _State(m, n_1, gain)
 
     middle_right = (middle + n_1) / 2
-    gain_left = _gain_of_phase_2(of, receded, grown, -m, middle_right, grown.m - m, count)
-    of = _with_gains(of, 1 - receded.part, m, 1.0, gain_left, gain_right)
-    slip = _regrown(of, begun.left, begun.right)
-    left, right = slip.d_left, slip.d_right
-    if not (left < m + middle_right and left - m < middle < c - right):
+    gain_left = _Gain(lambda x: gained(x) + dq_1(x), -m, middle_right, count, near=m_1 - m)
+    guess = begun.left, begun.right
+    left, right, dq_3 = _phase_3(of, m, 1 - part, (gain_left, gain), guess)
+    n = of.c - right
+    if not (left < m + middle_right and left - m < middle < n):
         return nothing
-    n = slip.n
-    start = n_1 if n > n_1 else 2 * n - c
-    values = np.empty(count)
-    for i in range(count):
-        x = table_place(start, n, 0.0, i, count)
-        values[i] = tabled(gain_right.table, x) + change(slip, x)
-    gain = Gain(Table(start, n, 0.0, series_of(values)), 1.0)
-    return State(slip.m, n_1, gain, left, right, receded.stretch)
+    start = n_1 if n > n_1 else 2 * n - of.c
+    at_end = _Gain(lambda x: gain(x) + dq_3(x), start, n, count, rubs=True)
+    return _State(m - left, n_1, at_end, left, right)
 
 
-@kernel
-def _is_sound(of: Any, state: Any) -> bool:
+def _is_sound(of: _HalfCycle, state: _State, count: int) -> bool:
     """Whether the shear traction stays within the friction limit where points stick again, and is
     not driven further where it is at that limit."""
-    table, count, most, excess = state.gain.table, len(state.gain.table.terms), 0.0, 0.0
-    places = np.array([table_place(state.n, table.end, 0.0, i, count) for i in range(count)])
-    twice = friction_limits(of, places)
-    for i in range(count):
-        gained = tabled(table, places[i])
-        if not abs(gained) < math.inf:
-            return False
-        most, excess = max(most, twice[i]), max(excess, -gained, gained - twice[i])
-    turns = (of.c - of.a) / 2 + turning_width(of.cycle) / 2
-    last = of.c if state.gain.rubs > 0 else table.end
-    return state.n < table.end <= of.c and -state.m <= turns <= last and excess <= SLACK * most
+    if not (state.gain and state.n < state.gain.end <= of.c):
+        return False
+    turns = (of.c - of.a) / 2 + of.H / 2
+    last = of.c if state.gain.rubs else state.gain.end
+    at_points = np.sin(np.pi / 4 * (chebpts1(count) + 1)) ** 2  # where the series is exact
+    x = state.n + (state.gain.end - state.n) * at_points
+    limit, gained = of.limit(x), state.gain(x)
+    excess = np.max(np.maximum(-gained, gained - limit))
+    return bool(-state.m <= turns <= last and excess <= FRICTION_RTOL * np.max(limit))
 
 
-@kernel
-def zone_by_phases(law: Any, own: Any, cycle: Any, sense: float) -> Any:
-    """m and n of a cycle with dsigma >= 0; NaN unless it has the phases and the tables converge."""
-    a, c = cycle[0], cycle[1]
-    if not (cycle[4] > 0 and cycle[5] > 0 and a + c > 0):
-        return math.nan, math.nan
-    of = friction(law, own, cycle, sense, -1.0, math.nan)
-    grown = placed(of, turning_width(of.cycle), math.nan, LEVEL)
-    middle = grown.n - (grown.m + grown.n) / 4
-    state = State(math.nan, math.nan, no_gain(), math.nan, math.nan, 0)
+def _by_phases(of: _HalfCycle) -> tuple[float, float]:
+    """m and n of a half-cycle; NaN unless it has the phases and the series converge."""
+    width, state = of.a + of.c, _State()
+    m_1, n_1, _, _ = _phase_1(of, None)
+    middle = n_1 - (m_1 + n_1) / 4
     for count in TERMS:
         coarser, changed = state, math.inf
-        for _ in range(ROUNDS):
+        for _ in range(MAX_ROUNDS):
             last, state = state, _half_cycle(of, middle, state, count)
             changed = max(abs(state.m - last.m), abs(state.n - last.n))
-            if not state.n < math.inf or changed <= REST * (a + c):
+            if not state.n < math.inf or changed <= ROUND_RTOL * width:
                 break
-        if not (changed <= REST * (a + c) and _is_sound(of, state)):
+        if not (changed <= ROUND_RTOL * width and _is_sound(of, state, count)):
             break
-        if max(abs(state.m - coarser.m), abs(state.n - coarser.n)) <= AGREED * (a + c):
+        if max(abs(state.m - coarser.m), abs(state.n - coarser.n)) <= ZONE_RTOL * width:
             return state.m, state.n
     return math.nan, math.nan
 
 
-@kernel
-def mixed_zone(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
-    """m and n of a cycle of constant loads in which slip reverses; NaN if they are not found.
+def _mixed_zone(
+    body: Body, own: dict[str, Any], a: float, c: float, dQ: float, dsigma: float, f: float
+) -> tuple[float, float]:
+    """m and n of a cycle of constant loads in which slip reverses; NaN if they are not found."""
+    if not (dQ > 0 and dsigma != 0):
+        return math.nan, math.nan
+    sense, edges = math.copysign(1.0, dsigma), {"a": a, "c": c}
 
-    Just beyond the end of the moderate zone, tables may fail.  There n departs from the moderate
-    solution as the square of (a + n - H)/(a + c), and m departs far less.
+    def limit(x: Array) -> Array:
+        p = solved(each_pressure, body, {"x": sense * x, **edges}, _UNIT, own)
+        return np.where(p < math.inf, 2 * f * p, 0.0)
 
-    ends, cycle: as in zone.py.
+    cuts, H = sense * breaks_of(body, own), 8 * dQ / (np.pi * abs(dsigma))
+    if sense > 0:
+        return _by_phases(_HalfCycle(limit, cuts, a, c, dQ, dsigma, H))
+    n, m = _by_phases(_HalfCycle(limit, cuts, c, a, dQ, -dsigma, H))
+    return m, n
+
+
+def with_mixed(
+    body: Body, own: dict[str, Any], cycle: dict[str, Any], f: Array, zone: StickZone
+) -> StickZone:
+    """Stick zones, and those of mixed cycles at constant normal loads that are not known yet.
+
+    cycle: a_1, c_1, a_2, c_2, dQ and dsigma for E* = 1, by name
     """
-    sense, as_oriented = sense_of(cycle), oriented(cycle)
-    m, n = zone_by_phases(law, own, as_oriented, sense)
-    if math.isnan(m):
-        m, n = patch(law, own, ends, 0, 1, 1.0, cycle)
-        receding = n if sense > 0 else m
-        past = as_oriented[0] + receding - turning_width(as_oriented)
-        within = 0 < past <= STRIP * (cycle[0] + cycle[1])
-        return (m, n) if within else (math.nan, math.nan)
-    return (m, n) if sense > 0 else (n, m)
-
-
-@loop
-def each_stick_zone(law: Any, given: Any, own: Any, out: Any) -> None:
-    """As in zone.py, and also the zones of mixed cycles at constant normal loads."""
-    law = opened(law)
-    for i in range(given.shape[0]):
-        cycle, body = over_modulus(given[i]), own[i]
-        m, n, regime = stick_zone(law, body, cycle)
-        steady = cycle[0] == cycle[2] and cycle[1] == cycle[3]
-        if regime == MIXED and math.isnan(m) and steady:
-            m, n = mixed_zone(law, body, ends_of(law, body, cycle), cycle)
-            regime = UNSOLVED if math.isnan(m) else MIXED
-        out[i, 0], out[i, 1], out[i, 2] = m, n, regime
+    shape = np.shape(zone.m)
+    m, n, regime = (np.array(v).ravel() for v in zone)
+    values = {**cycle, "f": f, **own}
+    given = {name: np.broadcast_to(value, shape).ravel() for name, value in values.items()}
+    steady = (given["a_1"] == given["a_2"]) & (given["c_1"] == given["c_2"])
+    cases = np.flatnonzero((regime == Regime.MIXED) & np.isnan(m) & steady)
+    for case in cases:
+        parameters = {name: given[name][case] for name in own}
+        loads = (given[name][case] for name in ("a_1", "c_1", "dQ", "dsigma", "f"))
+        m[case], n[case] = _mixed_zone(body, parameters, *loads)
+        regime[case] = Regime.UNSOLVED if math.isnan(m[case]) else Regime.MIXED
+    return StickZone(*(v.reshape(shape)[()] for v in (m, n, regime)))
