@@ -108,7 +108,7 @@ _ALSO_USED = (
     *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "why", "tension_threshold", "slip_zones"),
     *("Contact", "Edges", "StickZone", "Threshold", "Regime", "March"),
     *("stick_margin", "shear", "shear_change", "slip_error", "slip_range", "slip_terms"),
-    *("closing_tension", "march", "history", "steady_cycle", "full_stick", "runtime"),
+    *("march", "history", "steady_cycle", "full_stick", "runtime"),
     *("History", "SteadyCycle", "public", "tol"),
 )
 

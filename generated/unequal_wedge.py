@@ -33,10 +33,10 @@ from .runtime.types import (
 )
 
 __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
-__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
-__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
-__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
-__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "contact", "contact_at_tilt", "history"]
+__all__ += ["load", "march", "moment", "pressure", "shear", "shear_change", "slip_error"]
+__all__ += ["slip_range", "slip_zones", "steady_cycle", "stick_margin", "stick_zone"]
+__all__ += ["tension_threshold", "tilt", "why"]
 
 
 @shared
@@ -535,9 +535,11 @@ def tension_threshold(
     phi_1: Values,
     phi_2: Values,
 ) -> Threshold:
-    """The two changes in bulk tension between which tension is moderate and the solution is exact.
+    """The two changes in bulk tension between which tension is moderate, at constant normal loads.
 
-        constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
+        dsigma = -/+ 8 dQ/(pi (a + c))
+
+    Under varying normal loads the regime of stick_zone decides.
 
     Parameters
     ----------
@@ -549,7 +551,7 @@ def tension_threshold(
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN unless such a range exists.  Also NaN where dQ < 0, and where
+        lower [Pa], upper [Pa].  NaN if the two contacts differ.  Also NaN where dQ < 0, and where
         dQ >= f (P_1 + P_2), which means sliding.
 
     Examples
@@ -561,51 +563,6 @@ def tension_threshold(
     '0.0193532'
     """
     return cycle.tension_threshold(
-        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, first, second, dQ, f, E_star
-    )
-
-
-def closing_tension(
-    first: Contact,
-    second: Contact,
-    dQ: Values,
-    *,
-    f: Values,
-    E_star: Values,
-    phi_1: Values,
-    phi_2: Values,
-) -> Threshold:
-    """Changes in bulk tension at which the moderate solution closes one slip zone.
-
-        upper: load(m, c) = (P_1 + P_2)/2 - dQ/(2 f),
-            dsigma = 4 f E* ((alpha_1 + alpha_2)/2 - tilt(m, c)),
-            where c is the right edge of the smaller contact
-        lower: the same with load(a, n) and tilt(a, n),
-            where a is the left edge of the smaller contact
-
-    Parameters
-    ----------
-    first, second : Contact at the start and at the end of the half-cycle that raises Q
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    f, E_star, phi_1, phi_2 : coefficient of friction [-]; composite modulus [Pa]; slope of the left
-        flank [rad]; slope of the right flank [rad]
-
-    Returns
-    -------
-    Threshold
-        lower [Pa], upper [Pa].  Slip reverses before the zone closes; see tension_threshold.
-        NaN unless the reduced load is positive and the stick zone fits into the smaller contact.
-        Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
-
-    Examples
-    --------
-    >>> law = dict(E_star=1.0, phi_1=0.125, phi_2=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> lower, upper = closing_tension(here, here, 0.019, f=0.5, **law)
-    >>> bool(lower < 0 < upper)
-    True
-    """
-    return cycle.closing_tension(
         _BODY, {"phi_1": phi_1, "phi_2": phi_2}, first, second, dQ, f, E_star
     )
 

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from IPython.display import Markdown, display
+from scipy.optimize import brentq
 from sympy import lambdify, symbols
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -25,6 +26,27 @@ from derive.paper.userfile import built_in as paper  # noqa: E402
 from derive.prose import prose  # noqa: E402
 
 Array = Any
+
+
+# ------------------------------------------------------------------ tension
+
+
+def closing_tension(body: ModuleType, contact: Any, dQ: float, *, f: float, **law: float) -> Any:
+    """The changes in bulk tension, down and up, at which one slip zone closes at constant loads.
+
+    In the moderate solution [-m, n] carries P - dQ/(2 f) at the tilt alpha - dsigma/(4 f E*).  Up,
+    its right edge is that of the contact: load(m, c) determines m, and tilt(m, c) dsigma.
+    """
+    a, c = float(contact.a), float(contact.c)
+    reduced = float(body.load(a, c, **law)) - dQ / (2 * f)
+    own = {name: value for name, value in law.items() if name != "E_star"}
+
+    def tension(edges: Callable[[float], tuple[float, float]]) -> float:
+        excess = lambda width: float(body.load(*edges(width), **law)) - reduced  # noqa: E731
+        kept = edges(brentq(excess, 1e-9 * (a + c), a + c, xtol=1e-15 * (a + c), rtol=1e-15))
+        return float(4 * f * law["E_star"] * (body.tilt(a, c, **own) - body.tilt(*kept, **own)))
+
+    return tension(lambda width: (a, width - a)), tension(lambda width: (width - c, c))
 
 
 # ------------------------------------------------------------------ texts

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from .chunks import any_lazy, demand_array, is_lazy, over_chunks
 from .body import Body
+from .chunks import any_lazy, demand_array, is_lazy, over_chunks
 
 Numbers = dict[str, Any]
 

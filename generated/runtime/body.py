@@ -17,7 +17,7 @@ class Body:
 
     def __init__(self, module: str, *law: Callable[..., Any]) -> None:
         self.__module__ = module
-        self.functions = Law(*law, solve=solve)
+        self.functions = Law._make([*law, solve])
 
     @cached_property
     def law(self) -> Any:

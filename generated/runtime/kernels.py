@@ -219,9 +219,7 @@ if COMPILED:
         """The law that Python holds, as kernels take it."""
         return Law(law.pressure, law.state, law.slope, law.series, law.breaks, law.solve)
 
-    def _hold(
-        pressure: Any, state: Any, slope: Any, series: Any, breaks: Any, solve: Any
-    ) -> Any:
+    def _hold(pressure: Any, state: Any, slope: Any, series: Any, breaks: Any, solve: Any) -> Any:
         return _Held(pressure, state, slope, series, breaks, solve)
 
     _HOLD = _made(_hold, called=True)

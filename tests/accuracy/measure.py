@@ -210,19 +210,6 @@ def _shear_zones(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]
     return [*regions.zone_of(risen)[:2], *regions.zone_of(sample)[:2]]
 
 
-def _closing_edges(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
-    """The edges that move as the moderate solution closes a slip zone."""
-    law = regions.law_of(sample, friction=False)
-    own = {n: v for n, v in law.items() if n != "E_star"}
-    edges = sample["a"], sample["c"]
-    load = module.load(*edges, **law) - sample["dQ"] / (2 * sample["f"])
-    scale = 4 * sample["f"] * sample["E_star"]
-    ends = _cycle("closing_tension", module, regions, sample)
-    tilts = (module.tilt(*edges, **own) - t / scale for t in ends)
-    lower, upper = (module.contact_at_tilt(load, alpha, **law) for alpha in tilts)
-    return lower.c, upper.a
-
-
 def _series(*orders: int) -> Results:
     def of(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
         given = [sample[n] for n in ("a", "c", "dQ", "dsigma")]
@@ -314,15 +301,6 @@ CATALOGUE = (
         lambda regions: regions.cycles(_MODERATE),
         _itself,
         share=0.2,
-    ),
-    Measured(
-        "closing_tension",
-        partial(_cycle, "closing_tension"),
-        partial_slip.closing,
-        lambda regions: regions.cycles(_MODERATE),
-        _larger,
-        _closing_edges,
-        0.2,
     ),
     *(
         Measured(

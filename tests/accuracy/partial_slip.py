@@ -118,24 +118,6 @@ def threshold(given: Given) -> list[mpf]:
     return [s * 8 * given["dQ"] / (mpmath.pi * (given["a"] + given["c"])) for s in (-1, 1)]
 
 
-def closing(body: str) -> Problem:
-    """The tension that leaves no slip at one edge of the patch; its other edge is the unknown."""
-    load, tilt = formula(body, "load"), formula(body, "tilt")
-
-    def patches(edges: Zone, given: Given) -> list[dict[str, mpf]]:
-        return [{**given, "c": edges[0]}, {**given, "a": edges[1]}]
-
-    def off(edges: Zone, given: Given) -> list[mpf]:
-        under = load(**given) - given["dQ"] / (2 * given["f"])
-        return [load(**there) - under for there in patches(edges, given)]
-
-    def told(edges: Zone, given: Given) -> list[mpf]:
-        scale = 4 * given["f"] * given["E_star"]
-        return [scale * (tilt(**given) - tilt(**there)) for there in patches(edges, given)]
-
-    return Problem(off, told)
-
-
 # ------------------------------------------------------------------ series
 
 

@@ -36,7 +36,7 @@ Errors are relative to the value itself, with the following exceptions:
 | tilt | P/(E* (a + c)) |
 | moment | P (a + c) |
 | L_N | the larger of L_N and K_N/(a + c) |
-| K_T, L_T, stick_margin, closing_tension | the larger of the two values of the result |
+| K_T, L_T, stick_margin | the larger of the two values of the result |
 | shear, shear_change | the friction limit 2 f p at x |
 
 There are three regions of inputs:

@@ -75,22 +75,6 @@ def test_definitions_are_the_sheets_formulas(body: str, a: float, c: float) -> N
             assert close(formula(body, name)(**known), expected, 20), name
 
 
-# ------------------------------------------------------------------ tensions
-
-
-def test_closing_tension_of_a_cylinder_by_hand() -> None:
-    """h falls to h sqrt(1 - dQ/(2 f P)), one edge stays, alpha = (a - c)/(2 R)."""
-    dQ = 0.25
-    with mpmath.workdps(50):
-        less = mpf("2.75") * (1 - mpmath.sqrt(1 - mpf(dQ) / hertz_load()))  # 2 f = 1
-        expected = 4 * mpf("0.5") * mpf("1.25") * less / (2 * mpf("1.5"))
-        start = [1.25 - float(less), 1.5 - float(less)]
-        given = {**HERTZ, **EDGES, "dQ": dQ}
-        lower, upper = partial_slip.closing("hertz").answer(start, given).numbers
-        assert close(upper, expected)
-        assert close(lower, -expected)
-
-
 # ------------------------------------------------------------------ tractions
 
 

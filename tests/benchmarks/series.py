@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from generated.runtime.types import Contact
+from notebooks.common import closing_tension
 
 TABLE = Path(__file__).parent.parent.parent / "notebooks" / "series.md"
 F, E_STAR = 0.5, 1.0
@@ -54,7 +55,8 @@ def measured(name: str, parts: Any = PARTS) -> Iterator[Errors]:
     law = {"f": F, "E_star": E_STAR, **own}
     contact = Contact(a, c, 0.0)
     shear = parts * F * body.load(a, c, E_star=E_STAR, **own)
-    tension = 2 * body.closing_tension(contact, contact, shear, **law).upper
+    closing = [closing_tension(body, contact, dQ, **law)[1] for dQ in shear]
+    tension = 2 * np.array(closing)
     zone = body.stick_zone(contact, contact, shear, tension, **law)
     exact = {"left": a - zone.m, "right": c - zone.n}
     series = [body.slip_zones(a, c, shear, tension, order=order, **law) for order in ORDERS]

@@ -36,9 +36,7 @@ CONTRACT = {
     "stick_margin": "a, c, dP, dM, dQ, dsigma, *, f",
     "stick_zone": "first, second, dQ, dsigma, *, f, E_star, phi, mixed=False",
     "why": "first, second, dQ, dsigma, *, f, E_star, phi",
-    **dict.fromkeys(
-        ("tension_threshold", "closing_tension"), "first, second, dQ, *, f, E_star, phi"
-    ),
+    "tension_threshold": "first, second, dQ, *, f, E_star, phi",
     **dict.fromkeys(
         ("slip_zones", "slip_error"),
         "a, c, dQ, dsigma, *, f, E_star, phi, da=0.0, dc=0.0, order=1",
@@ -57,7 +55,7 @@ FIELDS = {
     **dict.fromkeys(("contact", "contact_at_tilt"), Contact._fields),
     **dict.fromkeys(("K_N", "L_N", "K_T", "L_T", "stick_margin"), Edges._fields),
     **dict.fromkeys(("slip_zones", "slip_error"), Edges._fields),
-    **dict.fromkeys(("tension_threshold", "closing_tension"), Threshold._fields),
+    "tension_threshold": Threshold._fields,
     "stick_zone": StickZone._fields,
 }
 
@@ -77,7 +75,7 @@ NEVER_CONSTANT = (0.0, -0.0, -1.0, NAN, INF, -INF)
 ANY_WIDTH = ("K_T", "L_T", "stick_margin", "flat_rounded", "hyperbola")
 """Functions and bodies with a contact of any width, wherever it lies."""
 
-SOLVED = ("stick_zone", "tension_threshold", "closing_tension", "slip_zones", "slip_error")
+SOLVED = ("stick_zone", "tension_threshold", "slip_zones", "slip_error")
 SOLVED += ("shear_change", "slip_range", "shear")
 FORMULAS: dict[str, Callable[..., Any]] = {
     f"wedge.{name}": getattr(wedge, name) for name in [*CONTRACT][: [*CONTRACT].index("stick_zone")]

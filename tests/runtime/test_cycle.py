@@ -25,7 +25,7 @@ OWN = {
     "hyperbola": {"phi": 0.25, "b": 0.5},
 }
 """A closed formula with a corner; sums over parts, solved for; quadrature, solved for."""
-NAMES = ["contact", "contact_at_tilt", "stick_zone", "tension_threshold", "closing_tension"]
+NAMES = ["contact", "contact_at_tilt", "stick_zone", "tension_threshold"]
 NAMES += ["slip_zones", "slip_error", "shear_change", "slip_range", "shear", "march"]
 EACH = pytest.mark.parametrize(
     ("body", "name"),

@@ -30,7 +30,8 @@ def times(slope):
 SOLVER = """
 import numpy as np
 from .factor import times
-from .kernels import Body, loop, opened
+from .body import Body
+from .kernels import loop, opened
 
 @loop
 def each_slope(law, given, own, out):

@@ -7,31 +7,21 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 
 import generated.hertz as cylinder
-from generated.runtime.kernels import loop, opened
-from generated.runtime.slip.locked import holds_load
-from generated.runtime.slip.zone import ends_of
-from generated.runtime.types import FULL_STICK, LARGE, MODERATE
+from generated.runtime.slip import locked
+from generated.runtime.types import Regime
 
-from .laws import hertz, solved
+from .laws import hertz, state
 
 F = 0.5
 GIVEN = {"f": F, "E_star": 1.0, "R": 1.0}
 
 
-@loop
-def _each(law, given, own, out):
-    """given: a cycle, its regime and Q; out: whether the zone carries Q."""
-    law = opened(law)
-    for i in range(given.shape[0]):
-        row = given[i]
-        cycle = row[:7].copy()
-        ends = ends_of(law, own[i], cycle)
-        holds = holds_load(law, own[i], ends, cycle, row[7], row[8])
-        out[i, 0] = 1.0 if holds else 0.0
-
-
 def carries(cycle, regime, Q):
-    return bool(solved(_each, hertz, [*cycle, regime, Q], 1))
+    """Whether a cylinder carries Q in a cycle a_1, c_1, a_2, c_2, dQ, dsigma."""
+    ends = [state(hertz, *cycle[:2])[:2], state(hertz, *cycle[2:4])[:2]]
+    first = np.array([*ends[0], Q, 0.0])
+    last = np.array([*ends[1], Q + cycle[4], cycle[5]])
+    return locked.carries(hertz.body, {"R": 1.0}, F, first, last, regime)
 
 
 def demand_limits(cycle, regime, lowest, highest):
@@ -52,8 +42,8 @@ def test_a_cylinder_that_is_rocked(d):
         2 f int_0^(1 - d) sqrt(1 - (x + d)**2)/2 dx = f (pi/4 - (d sqrt(1 - d**2) + asin d)/2).
     """
     highest = F * (math.pi / 4 - (d * math.sqrt(1 - d * d) + math.asin(d)) / 2)
-    cycle = [1 + d, 1 - d, 1 - d, 1 + d, 0.0, 0.0, F]
-    demand_limits(cycle, FULL_STICK, -highest, highest)
+    cycle = [1 + d, 1 - d, 1 - d, 1 + d, 0.0, 0.0]
+    demand_limits(cycle, Regime.FULL_STICK, -highest, highest)
 
 
 @pytest.mark.parametrize("tension", [0.3, -0.5])
@@ -61,17 +51,17 @@ def test_tension_alone(tension):
     """dq is odd: the highest Q is int min(f p, f p - dq) dx = f P - int |dq| dx/2."""
     here = cylinder.contact(math.pi / 4, 0.0, E_star=1.0, R=1.0)
     zone = cylinder.stick_zone(here, here, 0.0, tension, **GIVEN)
-    assert zone.regime == LARGE and zone.m == pytest.approx(zone.n)
+    assert zone.regime == Regime.LARGE and zone.m == pytest.approx(zone.n)
     angle, weight = leggauss(400)
     x = np.sin(math.pi / 2 * angle)
     dq = cylinder.shear_change(x, here, here, 0.0, tension, **GIVEN)
     half = np.sum(weight * math.pi / 2 * np.sqrt(1 - x * x) * abs(dq)) / 2
     highest = F * math.pi / 4 - half
     assert 0.2 < highest / (F * math.pi / 4) < 0.95
-    cycle = [1.0, 1.0, 1.0, 1.0, 0.0, tension, F]
-    demand_limits(cycle, LARGE, -highest, highest)
+    cycle = [1.0, 1.0, 1.0, 1.0, 0.0, tension]
+    demand_limits(cycle, Regime.LARGE, -highest, highest)
 
 
 def test_under_moderate_tension_every_load_below_sliding_is_carried():
-    cycle = [1.0, 1.0, 1.0, 1.0, 0.1, 0.02, F]
-    assert carries(cycle, MODERATE, 0.999 * F * math.pi / 4)
+    cycle = [1.0, 1.0, 1.0, 1.0, 0.1, 0.02]
+    assert carries(cycle, Regime.MODERATE, 0.999 * F * math.pi / 4)

@@ -6,42 +6,29 @@ scales in test_stick.py beside it, plain Python is in test_cycle.py.
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
-from scipy.optimize import brentq
 
-from generated.runtime.inverse import contact_at_tilt
-from generated.runtime.kernels import loop, opened
-from generated.runtime.slip.march import large_zone
-from generated.runtime.slip.mixed import mixed_zone
+from generated.runtime.cycle import stick_zone
+from generated.runtime.types import Contact, Regime
 
 from . import laws
-from .laws import solved, state
+from .laws import state
 
 F = 0.5
 
 
-@loop
-def each_zone(law, given, own, out):
-    """given: a, c, dQ, dsigma; m and n of what turns round, the moderate zone, the large one."""
-    law = opened(law)
-    for i in range(given.shape[0]):
-        a, c, dQ, dsigma = given[i]
-        load, moment, tilt, _, _ = law.state(a, c, own[i])
-        ends = np.array([[a, c, tilt, load, moment], [a, c, tilt, load, moment]])
-        cycle = np.array([a, c, a, c, dQ, dsigma, F])
-        out[i, 0], out[i, 1] = mixed_zone(law, own[i], ends, cycle)
-        low, lean = load - dQ / (2 * F), tilt - dsigma / (4 * F)
-        out[i, 2], out[i, 3] = contact_at_tilt(law, own[i], low, lean)
-        out[i, 4], out[i, 5] = large_zone(law, own[i], cycle)
-
-
 def cycles(case, a, c, shear, tension):
-    """dQ in parts of 2 f P, tension of 8 dQ/(pi h)."""
-    a, c, shear, tension = np.broadcast_arrays(a, c, shear, tension)
-    edges = zip(a.flat, c.flat, strict=True)
-    load = [state(case, u, v)[0] for u, v in edges]
-    dQ = 2 * F * shear * np.reshape(load, a.shape)
-    return np.stack([a, c, dQ, tension * 8 * dQ / (np.pi * (a + c))], axis=-1).reshape(-1, 4)
+    """Rows of a, c, dQ, dsigma; dQ in parts of 2 f P, tension of 8 dQ/(pi h)."""
+    dQ = 2 * F * shear * state(case, a, c)[0]
+    tension = np.atleast_1d(tension)
+    rows = [np.full(tension.shape, v) for v in (a, c, dQ)]
+    return np.stack([*rows, tension * 8 * dQ / (np.pi * (a + c))], axis=-1)
+
+
+def zones(case, rows):
+    """m, n and the regime of cycles, mixed ones solved, a row each."""
+    a, c, dQ, dsigma = np.transpose(rows)
+    here, own = Contact(a, c, 0.0), {str(i): v for i, v in enumerate(case.own)}
+    return np.transpose(stick_zone(case.body, own, here, here, dQ, dsigma, F, 1.0, mixed=True))
 
 
 def test_the_boundary_element_solver_finds_the_same():
@@ -52,27 +39,20 @@ def test_the_boundary_element_solver_finds_the_same():
         1.05: (0.71662, 0.99206, 1.4e-4),
         1.085: (0.71253, 0.98834, 1.3e-4),
     }
-    given = np.array([[1.0, 1.0, 0.15, part * 0.206021] for part in found])
-    for (m, n), (m_there, n_there, off) in zip(
-        solved(each_zone, laws.wedge, given, 6)[:, :2], found.values(), strict=True
-    ):
+    here = zones(laws.wedge, [[1.0, 1.0, 0.15, part * 0.206021] for part in found])
+    for (m, n, regime), (m_there, n_there, off) in zip(here, found.values(), strict=True):
+        assert regime == Regime.MIXED
         assert abs(m - m_there) <= off and abs(n - n_there) <= off
 
 
 @pytest.mark.parametrize("name", ["wedge", "hertz", "flat_rounded"])
 def test_it_goes_over_into_large_tension(name):
-    """Up to m + n(large) = H: before, by d in parts of the contact, n parts from it like d**2."""
-    case, a, c = getattr(laws, name), 1.5, 1.25
-
-    def past(tension):
-        zone = solved(each_zone, case, cycles(case, a, c, 0.2, tension), 6)
-        return np.maximum((zone[:, 4] + zone[:, 5]) / (a + c) - 1 / np.asarray(tension), -1)
-
-    border = brentq(lambda t: past(t)[0], 1.02, 1.6, xtol=1e-12)
-    tension = border - (border - 1) * np.array([0.02, 0.05, 0.1, 0.15])
-    zone = solved(each_zone, case, cycles(case, a, c, 0.2, tension), 6)
-    apart = (zone[:, 5] - zone[:, 1]) / past(tension) ** 2
-    assert_allclose(apart, apart[0], rtol=0.1)
-    assert 1 < apart[0] < 6
-    assert_allclose(zone[:, 0], zone[:, 4], atol=1e-4)
-    assert np.isnan(solved(each_zone, case, cycles(case, a, c, 0.2, border + 1e-3), 6)[0, 0])
+    """The slip zones are continuous where reversed slip no longer turns round."""
+    case, low, high = getattr(laws, name), 1.02, 1.6
+    while high - low > 1e-8:
+        middle = (low + high) / 2
+        (zone,) = zones(case, cycles(case, 1.5, 1.25, 0.2, middle))
+        low, high = (low, middle) if zone[2] == Regime.LARGE else (middle, high)
+    before, beyond = zones(case, cycles(case, 1.5, 1.25, 0.2, [low, high]))
+    assert (before[2], beyond[2]) == (Regime.MIXED, Regime.LARGE)
+    assert before[:2] == pytest.approx(beyond[:2], abs=1e-6)

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from generated import catenary, circular_arc, hyperbola, power
-from generated.runtime import kernels, pieces
+from generated.runtime import pieces
+from generated.runtime.body import Body as Runtime
 from generated.runtime.forward import each_pressure, each_series, each_state
 from generated.runtime.kernels import kernel, loop, opened
 from generated.runtime.pieces import curve_of
@@ -58,7 +59,7 @@ def _cuts(own):
     return _breaks(own)
 
 
-_BODY = kernels.Body(__name__, _pressure, _state, _slope, _series, _cuts)
+_BODY = Runtime(__name__, _pressure, _state, _slope, _series, _cuts)
 
 
 @loop

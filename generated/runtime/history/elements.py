@@ -20,14 +20,13 @@ so that points that come into contact stick from then on, and the advance of an 
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from ..cycle import Own, pressure
 from ..body import Body
-from ..kernels import loop, opened
+from ..cycle import Own, pressure
 from ..types import Array
 
 CLOSEST = 0.02

@@ -41,8 +41,8 @@ Barber, Davies and Hills (2011) give P_E for convex loops.
 
 import numpy as np
 
-from ..cycle import Own, contact, contact_at_tilt
 from ..body import Body
+from ..cycle import Own, contact, contact_at_tilt
 from ..types import Array, Contact
 from .nearest import ROUNDING
 

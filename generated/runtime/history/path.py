@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..cycle import Own, contact
 from ..body import Body
+from ..cycle import Own, contact
 from ..types import Array
 
 SMALL = 0.02

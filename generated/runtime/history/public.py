@@ -9,9 +9,9 @@ import numpy as np
 from threadpoolctl import ThreadpoolController
 
 from ..arrays import Numbers, numbers_of, shape_of
+from ..body import Body
 from ..chunks import any_lazy
 from ..cycle import Own, march, stick_zone
-from ..body import Body
 from ..types import Array, Contact, History, Regime, SteadyCycle, StickZone, Values
 from . import refine
 from .lazy import WHOLE, over_chunks

@@ -20,10 +20,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..cycle import Own
 from ..body import Body
-from ..types import Array, History, Regime, SteadyCycle
+from ..cycle import Own
 from ..forward import breaks_of
+from ..types import Array, History, Regime, SteadyCycle
 from .elements import Elements, elements_of, mesh, pressures, value_at
 from .path import Path, path, touching
 from .steps import Interface

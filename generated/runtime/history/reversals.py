@@ -40,11 +40,11 @@ from typing import Any
 
 import numpy as np
 
-from ..cycle import Own, contact, contact_at_tilt, pressure
 from ..body import Body
+from ..cycle import Own, contact, contact_at_tilt, pressure
+from ..forward import breaks_of
 from ..kernels import kernel, loop, opened
 from ..types import Array, History, Regime
-from ..forward import breaks_of
 from .nearest import ROUNDING
 
 IN_PHASE = 1e-9

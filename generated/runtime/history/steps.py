@@ -15,8 +15,8 @@ import math
 
 import numpy as np
 
-from ..cycle import Own
 from ..body import Body
+from ..cycle import Own
 from ..types import Array, Regime
 from .elements import Elements, full_stick, mean_pressures
 from .nearest import ROUNDING, nearest

@@ -7,7 +7,6 @@ bounded     the stick zone between slip zones that grow
 growth      whether slip grows throughout the half-cycle
 zone        the regime of a cycle, and its stick zone
 mixed       the stick zone where slip reverses within a half-cycle
-threshold   tensions at which a cycle is no longer moderate
 series      slip zones by series in their length
 shear       the change in shear, and the slip range
 locked      the mean shear load that a stick zone can carry

@@ -55,7 +55,7 @@ class Ends(NamedTuple):
 
 @kernel
 def cycle_of(row: Any) -> Cycle:
-    """A half-cycle from a row that begins with a_1, c_1, a_2, c_2, dQ, dsigma and ends with f, E*."""
+    """A half-cycle from a row: a_1, c_1, a_2, c_2, dQ, dsigma, any others, f, E*."""
     f, E_star = row[-2], row[-1]
     return Cycle(row[0], row[1], row[2], row[3], row[4] / E_star, row[5] / E_star, f)
 

@@ -65,7 +65,7 @@ def marched(
     way = _way(loads, roundings)
     ends = [at(way.progress, axis=-1)[..., None] for at in (np.argmin, np.argmax)]
     low, high = (_at(loads, end) for end in ends)
-    whole = _half_cycle(contact, *ends, high - low, roundings)
+    whole = _half_cycle(contact, (ends[0], ends[1]), high - low, roundings)
     constants = {"f": f, **_UNIT}
     m, _, regime = solved(each_stick_zone, body, whole, constants, own, StickZone, ("regime",))
     refused, refusal = _refusal(way, loads, contact, f)
@@ -80,7 +80,7 @@ def marched(
     sense = np.where(_at(way.progress, way.start) == 0, 1, -1)
     rise = sense * (loads - _at(loads, way.start))
     now = np.broadcast_to(np.arange(P.shape[-1]), P.shape)
-    part = _half_cycle(contact, way.start, now, rise, roundings)
+    part = _half_cycle(contact, (way.start, now), rise, roundings)
     part["regime"] = np.where(regime == Regime.MIXED, Regime.MODERATE, regime)
     at_end = way.progress == (1 + sense) / 2
     asked = ~refused & ~np.isnan(m) & ((regime != Regime.MIXED) | at_end)
@@ -95,13 +95,9 @@ def marched(
     large, backward = regime == Regime.LARGE, whole["dsigma"] < 0
     slips = exists & (regime != Regime.FULL_STICK)
     left = np.where(slips, np.where(large & backward, -sense, sense), 0)
-    return March(
-        *contact[:2],
-        *np.where(exists, zone, np.nan),
-        left,
-        np.where(large, -left, left),
-        np.where(asked & ~exists, Regime.UNSOLVED, regime),
-    )
+    m, n = np.where(exists, zone, np.nan)
+    regime = np.where(asked & ~exists, Regime.UNSOLVED, regime)
+    return March(contact.a, contact.c, m, n, left, np.where(large, -left, left), regime)
 
 
 def _at(values: Array, instants: Array) -> Array:
@@ -151,7 +147,9 @@ def _way(loads: Array, roundings: Array) -> _Way:
 
 def _refusal(way: _Way, loads: Array, contact: Contact, f: Array) -> tuple[Array, Array]:
     """Whether histories are refused at all instants, and the regime that says why."""
-    valid = np.isfinite(loads).all(axis=0) & (contact.a + contact.c > 0) & np.isfinite(contact.alpha)
+    valid = (
+        np.isfinite(loads).all(axis=0) & (contact.a + contact.c > 0) & np.isfinite(contact.alpha)
+    )
     exists = (valid & (f > 0)).all(axis=-1, keepdims=True)
     slides = np.any(abs(loads[2]) >= f * loads[0], axis=-1, keepdims=True)
     jumps = abs(way.progress[..., -1:] - way.progress[..., :1]) > MAX_LAST_STEP
@@ -166,9 +164,9 @@ def _refusal(way: _Way, loads: Array, contact: Contact, f: Array) -> tuple[Array
 
 
 def _half_cycle(
-    contact: Contact, start: Array, end: Array, rise: Array, roundings: Array
+    contact: Contact, ends: tuple[Array, Array], rise: Array, roundings: Array
 ) -> dict[str, Array]:
     """a_1, c_1, a_2, c_2, dQ and dsigma between instants; roundings of the loads count as zero."""
-    edges = [_at(edge, instants) for instants in (start, end) for edge in contact[:2]]
+    edges = [_at(edge, instants) for instants in ends for edge in contact[:2]]
     changes = np.where(abs(rise) <= roundings, 0.0, rise)[2:]
     return dict(zip(("a_1", "c_1", "a_2", "c_2", "dQ", "dsigma"), [*edges, *changes], strict=True))

@@ -12,7 +12,7 @@ has the step 2**-k/3.
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from ..kernels import kernel
 RULES = 4
 """Number of rules, the last one being the finest."""
 
-ROUGH, FINEST = np.int64(1), np.int64(RULES - 1)
+ROUGH, FINEST = (cast(int, np.int64(rule)) for rule in (1, RULES - 1))
 """Rules for shear to about 1e-7 and, however close a kink is to the stick zone, to 1e-12; typed as
 loop counters are, so that each kernel is compiled once."""
 

@@ -71,10 +71,7 @@ def _share_a_cycle(given: Any, own: Any, i: int) -> bool:
     for k in range(given.shape[1]):
         if k != 9 and given[i, k] != given[i - 1, k]:
             return False
-    for k in range(own.shape[1]):
-        if own[i, k] != own[i - 1, k]:
-            return False
-    return True
+    return bool(np.all(own[i] == own[i - 1]))
 
 
 @kernel
@@ -123,9 +120,9 @@ def each_shear_change(law: Any, given: Any, own: Any, out: Any) -> None:
 # ---------------------------------------------------------------- the shear traction itself
 
 
-def _turns_in(contact: Any, dQ: Array, dsigma: Array, zone: StickZone, margin: Array) -> Array:
+def _turns_in(contact: Any, change: Any, zone: StickZone, margin: Array) -> Array:
     """Whether the rate of shear, while a contact sticks, changes sign within a stick zone."""
-    a, c = contact
+    (a, c), (dQ, dsigma) = contact, change
     turn = (c - a) / 2 + 4 * dQ / (np.pi * dsigma)
     return (-zone.m - margin < turn) & (turn < zone.n + margin)
 
@@ -148,8 +145,8 @@ def rises_and_falls(
     slips_less = (fall_zone.m > rise_zone.m - margin) & (fall_zone.n > rise_zone.n - margin)
     follows = (
         ((rise[1] < 0) == (fall[1] < 0))
-        & _turns_in(contact, *fall, rise_zone, margin)
-        & _turns_in((fall_zone.m, fall_zone.n), *fall, rise_zone, margin)
+        & _turns_in(contact, fall, rise_zone, margin)
+        & _turns_in((fall_zone.m, fall_zone.n), fall, rise_zone, margin)
     )
     within = slips_less & (fall_zone.regime == rise_zone.regime) & (moderate | (large & follows))
     known = (moderate | large | stuck) & (fall[0] <= rise[0])
