@@ -161,14 +161,12 @@ def _mixed_chunk(body: Body, names: tuple[str, ...], numbers: dict[str, Any]) ->
 
     own = {name: numbers.pop(name) for name in names}
     f, E_star = numbers.pop("f"), numbers.pop("E_star")
+    labels = ("a_1", "c_1", "a_2", "c_2", "dQ", "dsigma")
+    cycle, unit = dict(zip(labels, numbers.values(), strict=True)), {"f": f, "E_star": 1.0}
     with np.errstate(all="ignore"):
-        loads = {name: numbers[name] / E_star for name in ("dQ", "dsigma")}
-    names = ("a_1", "c_1", "a_2", "c_2")
-    cycle = {**dict(zip(names, numbers.values(), strict=False)), **loads}
-    zone = solved(
-        each_stick_zone, body, cycle, {"f": f, "E_star": 1.0}, own, StickZone, ("regime",)
-    )
-    return with_mixed(body, own, cycle, f, zone)
+        cycle["dQ"], cycle["dsigma"] = cycle["dQ"] / E_star, cycle["dsigma"] / E_star
+        zone = solved(each_stick_zone, body, cycle, unit, own, StickZone, ("regime",))
+        return with_mixed(body, own, cycle, f, zone)
 
 
 def why(

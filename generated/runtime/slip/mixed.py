@@ -66,9 +66,6 @@ ROUND_RTOL = 1e-9
 FRICTION_RTOL = 1e-6
 """Allowance for rounding, relative to friction."""
 
-STRETCHES = (1 / 64, 1 / 16, 1 / 4, 1.0)
-"""Lengths of the series of phase 2 that are tried, relative to the distance to its end."""
-
 _NODES, _WEIGHTS = double_exponential(1 / 12)
 _ANGLES, _GAUSS = ((1 + v) / 2 for v in np.polynomial.legendre.leggauss(64))
 _GAUSS -= 0.5  # rule on (0, 1)
@@ -286,23 +283,21 @@ def _phase_2(
 ) -> tuple[list[_Leg], float]:
     """The legs until all of the right edge sticks or the half-cycle ends, and lambda then.
 
-    The range of m is not known beforehand, so that longer and longer series are tried.  A new leg
-    begins at each break, because Lambda has a square root before it.  No legs if m passes `middle`.
+    A new leg begins at each break, because Lambda has a square root before it.  No legs if m passes
+    `middle`.
     """
     sticks_all_right, legs = of.H - of.c, list[_Leg]()
     least = max(sticks_all_right, -middle)
     while m > least:
-        full, before = m - max([least, *(-at for at in of.cuts if least < -at < m)]), part
-        for stretch in STRETCHES:
-            leg = _next_leg(of, dq, legs, m, stretch * full, count)
-            part = before + leg.elapsed(1.0)
-            if part >= 1:
-                end = brentq(lambda s: before + leg.elapsed(s) - 1, 0.0, 1.0, xtol=1e-15)  # noqa: B023
-                return [*legs, leg._replace(end=end)], 1.0
-        if not part < 1:
-            return [], math.nan
-        legs, m = [*legs, leg], leg.bottom
-    return (legs, part) if sticks_all_right >= -middle else ([], math.nan)
+        bottom = max([least, *(-at for at in of.cuts if least < -at < m)])
+        leg = _next_leg(of, dq, legs, m, m - bottom, count)
+        at_end = part + leg.elapsed(1.0)
+        if at_end >= 1:
+            end = brentq(lambda s, leg, part: part + leg.elapsed(s) - 1, 0.0, 1.0, (leg, part))
+            return [*legs, leg._replace(end=end)], 1.0
+        legs, m, part = [*legs, leg], leg.bottom, at_end
+    whole = sticks_all_right >= -middle and part < 1
+    return (legs, part) if whole else ([], math.nan)
 
 
 def _phase_3(
