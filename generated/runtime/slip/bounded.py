@@ -44,9 +44,12 @@ from .cycles import drives
 from .newton import log_step, moved
 from .quadrature import RULES, slip_zone
 
-NEWTON_RTOL = 1e-7
-"""Newton's method ends after a step below this: the next one would be its square.  Slip zones whose
-relative change from one rule to the next is below this are exact by the finer rule."""
+NEWTON_RTOL = 1e-4
+"""Newton's method ends after a step below this: the next one would be its square."""
+
+RULE_RTOL = 1e-7
+"""Slip zones whose relative change from one rule to the next is below this are exact by the finer
+rule, which takes one step of about this length."""
 
 MAX_STEPS = 40
 """Largest number of steps of Newton's method."""
@@ -240,8 +243,8 @@ def zone_between(law: Any, own: Any, of: Any) -> Any:
             return math.nan, math.nan, Regime.MIXED
         if (
             rule > 0
-            and abs(left - last_left) <= NEWTON_RTOL * left + rounding
-            and abs(right - last_right) <= NEWTON_RTOL * right + rounding
+            and abs(left - last_left) <= RULE_RTOL * left + rounding
+            and abs(right - last_right) <= RULE_RTOL * right + rounding
         ):
             return of.a - left, of.c - right, Regime.LARGE
     return math.nan, math.nan, Regime.UNSOLVED
