@@ -42,7 +42,9 @@ def closing_tension(body: ModuleType, contact: Any, dQ: float, *, f: float, **la
     own = {name: value for name, value in law.items() if name != "E_star"}
 
     def tension(edges: Callable[[float], tuple[float, float]]) -> float:
-        excess = lambda width: float(body.load(*edges(width), **law)) - reduced  # noqa: E731
+        def excess(width: float) -> float:  # what does not reach the body carries nothing
+            return float(np.nan_to_num(body.load(*edges(width), **law))) - reduced
+
         kept = edges(brentq(excess, 1e-9 * (a + c), a + c, xtol=1e-15 * (a + c), rtol=1e-15))
         return float(4 * f * law["E_star"] * (body.tilt(a, c, **own) - body.tilt(*kept, **own)))
 

@@ -296,7 +296,9 @@ def shear(
 ) -> Array:
     """The shear traction after a rise of the loads and a fall."""
     given = {**edges_of(contact, "contact"), "Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    a, c, *loads = numbers_of(given, {}).values()
+    numbers = numbers_of(given, {})
+    shape_of(numbers | numbers_of({"x": x}, {"f": f, "E_star": E_star, **own}))
+    a, c, *loads = numbers.values()
     rise, fall = [2 * value for value in loads[:2]], loads[2:]
     zones, changes = list[StickZone](), list[Array]()
     for dQ, dsigma in (rise, fall):

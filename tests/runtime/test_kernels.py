@@ -77,7 +77,8 @@ def used(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (small / "__init__.py").touch()
     (small / "factor.py").write_text(FACTOR)
     (small / "solver.py").write_text(SOLVER)
-    shutil.copy(ROOT / "generated" / "runtime" / "kernels.py", small)
+    for name in ("body", "elementary", "inverse", "kernels", "search", "types"):
+        shutil.copy(ROOT / "generated" / "runtime" / f"{name}.py", small)
     assert solved(folder) == (["30.0", "-1.0"], [COMPILING])
     return folder
 

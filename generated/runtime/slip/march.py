@@ -90,8 +90,10 @@ def marched(
         for values in (part, constants, own)
     )
     zone[:, asked] = solved(each_zone_of_regime, body, given, constants, own, Edges)
-    a, c = (np.minimum(edge, _at(edge, way.start)) * (1 + LOAD_RTOL) for edge in contact[:2])
-    exists = (zone[0] + zone[1] > 0) & (zone[0] <= a) & (zone[1] <= c)
+    a, c = (np.minimum(edge, _at(edge, way.start)) for edge in contact[:2])
+    rounding = LOAD_RTOL * (a + c)
+    inside = (zone[0] <= a + rounding) & (zone[1] <= c + rounding)
+    exists = (zone[0] + zone[1] > 0) & inside
     large, backward = regime == Regime.LARGE, whole["dsigma"] < 0
     slips = exists & (regime != Regime.FULL_STICK)
     left = np.where(slips, np.where(large & backward, -sense, sense), 0)

@@ -47,8 +47,9 @@ from ..arrays import solved
 from ..body import Body
 from ..elementary import EPS
 from ..forward import breaks_of, each_pressure
-from ..types import Array, Regime, StickZone
+from ..types import Array, Edges, Regime, StickZone
 from .quadrature import double_exponential
+from .zone import each_zone_of_regime
 
 TERMS = (16, 24, 36, 54)
 """Numbers of terms of the series, in turn."""
@@ -65,6 +66,10 @@ ROUND_RTOL = 1e-9
 
 FRICTION_RTOL = 1e-6
 """Allowance for rounding, relative to friction."""
+
+MAX_STRIP = 1e-4
+"""Width of the strip beyond the moderate zone in which the moderate solution stands in for series
+that fail, as (a + n - H)/(a + c).  It is off by less than the square of this."""
 
 _NODES, _WEIGHTS = double_exponential(1 / 12)
 _ANGLES, _GAUSS = ((1 + v) / 2 for v in np.polynomial.legendre.leggauss(64))
@@ -400,9 +405,22 @@ def _by_phases(of: _HalfCycle) -> tuple[float, float]:
 
 
 def _mixed_zone(
-    body: Body, own: dict[str, Any], a: float, c: float, dQ: float, dsigma: float, f: float
+    body: Body,
+    own: dict[str, Any],
+    a: float,
+    c: float,
+    dQ: float,
+    dsigma: float,
+    f: float,
+    moderate: list[float],
 ) -> tuple[float, float]:
-    """m and n of a cycle of constant loads in which slip reverses; NaN if they are not found."""
+    """m and n of a cycle of constant loads in which slip reverses; NaN if they are not found.
+
+    Just beyond the end of the moderate zone, series may fail.  There n departs from the moderate
+    solution as the square of (a + n - H)/(a + c), and m departs far less.
+
+    moderate: m and n of the moderate solution
+    """
     if not (dQ > 0 and dsigma != 0):
         return math.nan, math.nan
     sense, edges = math.copysign(1.0, dsigma), {"a": a, "c": c}
@@ -412,10 +430,12 @@ def _mixed_zone(
         return np.where(p < math.inf, 2 * f * p, 0.0)
 
     cuts, H = sense * breaks_of(body, own), 8 * dQ / (np.pi * abs(dsigma))
-    if sense > 0:
-        return _by_phases(_HalfCycle(limit, cuts, a, c, dQ, dsigma, H))
-    n, m = _by_phases(_HalfCycle(limit, cuts, c, a, dQ, -dsigma, H))
-    return m, n
+    if sense < 0:
+        a, c, moderate = c, a, moderate[::-1]
+    m, n = _by_phases(_HalfCycle(limit, cuts, a, c, dQ, abs(dsigma), H))
+    if math.isnan(m) and 0 < a + moderate[1] - H <= MAX_STRIP * (a + c):
+        m, n = moderate
+    return (m, n) if sense > 0 else (n, m)
 
 
 def with_mixed(
@@ -427,13 +447,16 @@ def with_mixed(
     """
     shape = np.shape(zone.m)
     m, n, regime = (np.array(v).ravel() for v in zone)
-    values = {**cycle, "f": f, **own}
+    at = {**cycle, "regime": Regime.MODERATE}
+    moderate = solved(each_zone_of_regime, body, at, {"f": f, **_UNIT}, own, Edges)
+    values = {**cycle, "f": f, **moderate._asdict(), **own}
     given = {name: np.broadcast_to(value, shape).ravel() for name, value in values.items()}
     steady = (given["a_1"] == given["a_2"]) & (given["c_1"] == given["c_2"])
     cases = np.flatnonzero((regime == Regime.MIXED) & np.isnan(m) & steady)
+    names = ("a_1", "c_1", "dQ", "dsigma", "f", "left", "right")
     for case in cases:
         parameters = {name: given[name][case] for name in own}
-        loads = (given[name][case] for name in ("a_1", "c_1", "dQ", "dsigma", "f"))
-        m[case], n[case] = _mixed_zone(body, parameters, *loads)
+        a, c, dQ, dsigma, f, *known = (given[name][case] for name in names)
+        m[case], n[case] = _mixed_zone(body, parameters, a, c, dQ, dsigma, f, known)
         regime[case] = Regime.UNSOLVED if math.isnan(m[case]) else Regime.MIXED
     return StickZone(*(v.reshape(shape)[()] for v in (m, n, regime)))

@@ -8,7 +8,7 @@ traction changes by r = f (p_1 + p_2), in the direction of slip.
 The zone is cut at the edge of the smaller contact and at the breaks of the body.  Each part takes
 the double exponential rule, y = low + (high - low)/(1 + exp(-pi sinh t)), whose nodes crowd towards
 both ends: for square roots there, for corners, and for kinks close beyond an end.  Rule number k
-has the step 2**-k/3.
+has the step 0.3 2**-k.
 """
 
 import math
@@ -25,8 +25,8 @@ ROUGH, FINEST = (cast(int, np.int64(rule)) for rule in (1, RULES - 1))
 """Rules for shear to about 1e-7 and, however close a kink is to the stick zone, to 1e-12; typed as
 loop counters are, so that each kernel is compiled once."""
 
-REACH = 3.75
-"""Largest t of a rule, where a node is 1e-32 of a part from its end."""
+REACH = 4.0
+"""Largest t of a rule, where a node is 1e-37 of a part from its end."""
 
 
 class SlipZone(NamedTuple):
@@ -47,7 +47,7 @@ def double_exponential(step: float) -> Any:
     return q, step * math.pi * np.cosh(t) * q * rest
 
 
-_ALL = [double_exponential(2.0**-k / 3) for k in range(RULES)]
+_ALL = [double_exponential(0.3 * 2.0**-k) for k in range(RULES)]
 _NODES, _WEIGHTS = np.concatenate(_ALL, axis=1)
 _FIRST = np.cumsum([0, *(len(nodes) for nodes, _ in _ALL)])
 
