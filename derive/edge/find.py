@@ -12,8 +12,6 @@ import numpy as np
 from derive.edge.table import Step
 from derive.errors import BadTable
 from generated.runtime.edge import (
-    OtherEdge,
-    Pressure,
     PressureFit,
     ShearFit,
     fit_pressure,
@@ -267,62 +265,34 @@ def _zone(
     """Compute the slip zone of one edge, to the second order if that is more certain."""
     fit, (K_T, K_T_error, L_T, L_T_error) = last[side].pressure, stuck[side]
     other_side = SIDES[1 - SIDES.index(side)]
-    pair = other_side in last and other_side in stuck
-    values: dict[str, float] = {
-        "K_N": fit.K_N,
-        "K_T": K_T,
-        "L_N": fit.L_N,
-        "L_T": L_T,
-        "da": moves[side],
-    }
+    width = other_K_T = by_other = None
+    if other_side in last and other_side in stuck:
+        width = last["right"].pressure.edge - last["left"].pressure.edge
+        other_K_T, other_fit = stuck[other_side][0], last[other_side].pressure
+        other = slip_zone(other_fit.K_N, other_K_T, f=f, da=moves[other_side])
+        by_other = other_K_T * float(other.d) / (4 * width)  # as in docs/edge.md
+        L_T_error = 0.0
+    values = {"K_N": fit.K_N, "K_T": K_T, "L_N": fit.L_N, "L_T": L_T, "da": moves[side]}
     errors = {"K_N": fit.K_N_error, "K_T": K_T_error, "L_N": fit.L_N_error, "L_T": L_T_error}
     errors["da"] = hypot(fit.edge_error, first[side].pressure.edge_error) if moves[side] else 0.0
-    then = first[side].pressure if moves[side] else None
 
-    def length(order: int, change: dict[str, float]) -> tuple[float, float]:
-        used = values | change
-        before = then and Pressure(then.K_N + used["K_N"] - fit.K_N, then.L_N)
-        L_T_alone: float | None = used["L_T"]
-        h = other = None
-        if pair:
-            their_fit = last[other_side].pressure
-            their_first_fit = first[other_side].pressure if moves[other_side] else None
-            known = Pressure(their_first_fit.K_N, their_first_fit.L_N) if their_first_fit else None
-            other = OtherEdge(
-                their_fit.K_N, stuck[other_side][0], their_fit.L_N, da=moves[other_side], then=known
-            )
-            L_T_alone = None
-            h = last["right"].pressure.edge - last["left"].pressure.edge
-        zone = slip_zone(
-            used["K_N"],
-            used["K_T"],
-            f=f,
-            L_N=used["L_N"],
-            L_T=L_T_alone,
-            da=used["da"],
-            h=h,
-            order=order,
-            then=before,
-            other=other,
-        )
-        return float(zone.d), float(zone.error)
+    def length(order: int, **changed: float) -> float:
+        used = values | changed
+        if width and other_K_T and by_other and order == 2:
+            used |= {"L_T": (2 * other_K_T - used["K_T"]) / (2 * width)}
+            used |= {"K_T": used["K_T"] + by_other}
+        return float(slip_zone(**used, f=f, h=width, order=order).d)
 
-    def with_errors(order: int) -> tuple[float, float, float]:
-        d, series = length(order, {})
-        parts = [
-            length(order, {name: values[name] + e})[0] - d
-            for name, e in errors.items()
-            if e and not (pair and name == "L_T")
-        ]
-        return d, float(np.sqrt(np.sum(np.square(parts)))), series
+    def with_error(order: int) -> tuple[float, float]:
+        d = length(order)
+        parts = [length(order, **{name: values[name] + e}) - d for name, e in errors.items() if e]
+        return d, float(np.sqrt(np.sum(np.square(parts))))
 
     # use the second term unless the uncertainty of the fit outweighs its benefit
-    first_d, first_error, first_series = with_errors(1)
-    d, error, series = with_errors(2)
-    order = 2
-    if not error < hypot(first_error, first_series):
-        d, error, series, order = first_d, first_error, first_series, 1
-    width = last["right"].pressure.edge - last["left"].pressure.edge if pair else None
+    (first_d, first_error), (d, error), order = with_error(1), with_error(2), 2
+    series = abs(d - first_d)
+    if not error < hypot(first_error, series):
+        d, error, order = first_d, first_error, 1
     distance = reach(fit.K_N, K_T, L_N=fit.L_N, L_T=L_T, h=width)
     part = d / float(distance) if distance > 0 else nan
     return Zone(side, K_T, K_T_error, moves[side], d, error, series, order, part)

@@ -27,23 +27,27 @@ def profile(x: np.ndarray) -> np.ndarray:
     return np.maximum(np.abs(x) - LAW["b"], 0.0) ** 2 / (2 * LAW["R"])
 
 
+def bonded(surface: Surface, contact: np.ndarray, dQ: float) -> np.ndarray:
+    """The shear traction of nodes that a shear load moves by one constant, without strain."""
+    inside = np.flatnonzero(contact)
+    size = len(inside) + 1
+    system, right = np.zeros((size, size)), np.zeros(size)
+    system[:-1, :-1] = surface.influence[np.ix_(inside, inside)]
+    system[:-1, -1] = 1.0
+    system[-1, :-1] = surface.force[inside]
+    right[-1] = dQ
+    dq = np.zeros(len(contact))
+    dq[inside] = np.linalg.solve(system, right)[:-1]
+    return dq
+
+
 def table() -> str:
     """The file's text."""
     x = np.arange(-25, 24) * SPACING + 0.03
     surface = Surface(x)
     P, M = (float(of(A, C, **LAW)) for of in (flat_rounded.load, flat_rounded.moment))
     p = press(Body(profile, LAW["E_star"], (-LAW["b"], LAW["b"])), surface, P, M).p
-    inside = np.flatnonzero(p > 0)
-    # no strain inside: the displacement is one constant there, and the force is dQ
-    size = len(inside) + 1
-    system, right = np.zeros((size, size)), np.zeros(size)
-    system[:-1, :-1] = surface.influence[np.ix_(inside, inside)]
-    system[:-1, -1] = 1.0
-    system[-1, :-1] = surface.force[inside]
-    right[-1] = DQ
-    dq = np.zeros_like(x)
-    dq[inside] = np.linalg.solve(system, right)[:-1]
-    rows = zip(x, p, dq, strict=True)
+    rows = zip(x, p, bonded(surface, p > 0, DQ), strict=True)
     lines = [
         "# tilted flat with rounded edges, forty elements in the contact",
         "x [mm]; p [MPa]; dq [MPa]",

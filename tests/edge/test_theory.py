@@ -1,10 +1,10 @@
-"""The matching at an edge, against the two conditions of a contact, and the runtime's tables."""
+"""The matching at an edge, against the two conditions of a contact, and the runtime's formulas."""
 
-from sympy import Rational, S, binomial, expand, symbols
+from sympy import Rational, S, expand, symbols
 
 from derive.symbols import f
 from derive.theory import edge, slip
-from generated.runtime.edge import near, zone
+from generated.runtime.edge.near import HalfCycle
 
 K, L, N, K_T, L_T, N_T, D, move = symbols("K L N K_T L_T N_T D move")
 
@@ -23,14 +23,17 @@ def test_the_width_adds_an_eighth() -> None:
     assert edge.width_term() * 8 * slip.h == 1
 
 
-def test_tables_of_the_runtime() -> None:
-    half = Rational(1, 2)
-    for k in range(3):
-        assert zone.PRESSURE[k] == float(binomial(k + half, k + 1))
-        assert zone.SHEAR[k] == float(binomial(k - half, k))
-        assert near.BEYOND[k] == tuple(float(binomial(j + half, j - k)) for j in range(k, 3))
-        stuck = (float(binomial(j - half, j - 1 - k)) for j in range(k + 1, 3))
-        assert near.STUCK[k] == tuple(stuck)
+def test_the_runtime_obeys_the_condition() -> None:
+    """With K_T > 0 and a moving edge, to rounding; R is the polynomial of the stick zone."""
+    half = HalfCycle(2.0, 0.7, 0.2, 0.3, 0.05, 0.5)
+    before, d = half.coefficients(half.da), half.zone()
+    now = (half.f * half.K_N, half.f * half.L_N), D
+    then = [half.f * C for C in before], D - half.da
+    condition, R = edge.matched([now, then], (half.K_T, half.L_T))
+    assert abs(condition.subs(D, d)) < 1e-15
+    assert all(
+        abs(one.subs(D, d) - other) < 1e-14 for one, other in zip(R, half.stuck(), strict=True)
+    )
 
 
 def test_what_has_grown_grows_again() -> None:
@@ -39,7 +42,6 @@ def test_what_has_grown_grows_again() -> None:
     twice = edge.grown(edge.grown((K, L, N), move), move)
     assert [expand(a - b) for a, b in zip(once, twice, strict=True)] == [0, 0, 0]
     assert edge.grown((K, L, N), S.Zero) == [K, L, N]
-    assert list(zone.shifted((K, L, N), move)) != [K, L, N]
 
 
 def test_what_a_pressure_was_before_its_edge_advanced() -> None:

@@ -1,0 +1,144 @@
+"""The average of polynomials fitted to all ranges of nodes that begin next to an edge.
+
+Each fit has two to five coefficients.  Akaike's weights, corrected for few nodes [1],
+
+    exp(-misfit**2/2 - k - nodes left out - k (k + 1)/(nodes - k)),   k coefficients,
+
+average over all of them [2].  The value of a fit is that with one coefficient more, and its
+variance includes the square of this change, as an estimate of the next term.  The scatter of the
+nodes is that about cubics over short ranges, most of which meet no kink.
+
+[1] Hurvich, Tsai: Regression and time series model selection in small samples, Biometrika 76, 297
+(1989).
+[2] Jay, Neil: Bayesian model averaging for analysis of lattice field theory results, Phys. Rev. D
+103, 114502 (2021).
+"""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+MIN_NODES = 24
+"""Number of nodes in contact below which errors may be small by chance."""
+
+MAX_GAP = 3.5
+"""Distance of two nodes, over the larger of the distances next to it, above which nodes are
+missing."""
+
+MAX_ERROR = 0.075
+"""Relative error of K above which a warning is given: half of all draws of a normal distribution
+lie within two thirds of it, 5 %."""
+
+
+def averaged(
+    kind: Any,
+    x: Any,
+    s: Any,
+    y: Any,
+    rate: Any,
+    mesh: Any,
+    half: int,
+    columns: Any,
+    spread: float,
+    read: Callable[[Any], Any],
+) -> Any:
+    """A record of the average of all fits of columns @ b to y, or of NaN with the reason.
+
+    x        nodes of the contact
+    s, y     distances of its inner nodes from the edge, and y there
+    rate     change in y over that in the traction
+    mesh     error of the traction due to the mesh
+    half     number of nodes that belong to this edge
+    columns  five columns of the linear model
+    spread   standard deviation of b_0, which is zero in the mean
+    read     coefficients of the edge as an analytic function of b; NaN if there are none
+    """
+    sd = rate * np.hypot(_scatter(s, y, rate), mesh)
+    weighted = np.vstack([np.eye(1, columns.shape[1]) / spread, (columns / sd[:, None])[:half]])
+    target = np.append(0.0, (y / sd)[:half])
+    counts = np.unique(np.geomspace(3, half, 40).astype(int))
+    used = np.arange(half + 1) <= counts[:, None]
+
+    def fit(terms: int) -> Any:
+        """Squared misfits, values and variances of the fits to each number of nodes."""
+        part = weighted[:, :terms] * used[..., None]
+        inverse = np.linalg.pinv(part)
+        b = inverse @ target
+        misfit = np.sum((used * target - (part @ b[..., None])[..., 0]) ** 2, axis=1)
+        # a step in the complex plane gives derivatives that are exact to rounding
+        steps = 1e-30j * np.eye(terms)
+        rates = np.stack([read((b + one).T).imag / 1e-30 for one in steps], axis=-1)
+        deviations = np.einsum("vct,ctn->vcn", rates, inverse)
+        return misfit, read(b.T), np.sum(deviations**2, axis=-1)
+
+    with np.errstate(all="ignore"):
+        chain = zip(*(fit(terms) for terms in range(2, columns.shape[1] + 1)), strict=True)
+        misfit, values, variance = (np.stack(each) for each in chain)
+        terms = np.arange(2, columns.shape[1])[:, None]
+        excess = misfit[:-1] / (counts + 1 - terms)
+        # the fit with one coefficient more, and the change due to it
+        variance = variance[1:] * np.maximum(excess, 1.0)[:, None] + np.diff(values, axis=0) ** 2
+        exists = np.all(np.isfinite(variance), axis=1) & (terms < counts)
+        penalty = terms + half - counts + terms * (terms + 1) / (counts - terms)
+        cost = np.where(exists, misfit[:-1] / 2 + penalty, np.inf)
+    if not np.any(exists):
+        return nothing(
+            kind,
+            half,
+            "no range of nodes follows the square-root law: the mesh is too coarse, a kink or slip "
+            "lies next to the edge, or the contact is complete",
+        )
+    best = np.unravel_index(np.argmin(cost), cost.shape)
+    values, variance = (np.moveaxis(of, 1, -1)[exists] for of in (values[1:], variance))
+    weights = np.exp(cost[best] - cost[exists])
+    mean = np.average(values, axis=0, weights=weights)
+    errors = np.sqrt(np.average(variance + (values - mean) ** 2, axis=0, weights=weights))
+    count, fitted, off = int(counts[best[1]]), int(best[0]) + 2, math.sqrt(excess[best])
+    K, name = abs(mean[-2]), kind._fields[len(mean) - 2]
+    return kind(
+        *(*mean.tolist(), *errors.tolist(), count, float(s[count - 1]), fitted - 1, off),
+        f"of all ranges of nodes and numbers of coefficients, {count} of {half} nodes and {fitted} "
+        f"coefficients fit best, with a misfit of {off:.2g} times the scatter",
+        _warning(x, errors[-2] / K if K else math.inf, name),
+    )
+
+
+def _warning(x: Any, part: float, name: str) -> str:
+    """Reasons to doubt a result."""
+    reasons = []
+    steps = np.abs(np.diff(x))
+    beside = np.maximum(np.append(steps[1:], 0.0), np.append(0.0, steps[:-1]))
+    for i in np.flatnonzero(steps > MAX_GAP * beside):
+        reasons.append(f"nodes are missing between x = {x[i]:.6g} and {x[i + 1]:.6g}")
+    if len(x) < MIN_NODES:
+        reasons.append(
+            f"there are only {len(x)} nodes in contact, and errors may be larger than stated: use "
+            "a finer mesh"
+        )
+    if not part < MAX_ERROR:
+        reasons.append(f"{name} is known only to within {100 * part:.0f} %")
+    return "; ".join(reasons)
+
+
+def nothing(kind: Any, nodes: int, why: str) -> Any:
+    """A record of NaN, with the reason as its warning."""
+    return kind(*[math.nan] * (len(kind._fields) - 6), nodes, math.nan, 0, math.nan, "", why)
+
+
+def _scatter(s: Any, y: Any, rate: Any) -> float:
+    """Standard deviation of the traction, from cubics fitted to six nodes each.
+
+    At most two thirds of these ranges are assumed to meet a kink.
+    """
+    s, y, rate = (sliding_window_view(column, 6) for column in (s, y, rate))
+    u = (s - s[:, :1]) / (s[:, -1:] - s[:, :1])
+    q, _ = np.linalg.qr(u[..., None] ** np.arange(4) / rate[..., None])
+    residual = y / rate
+    residual = residual - np.einsum("nij,nkj,nk->ni", q, q, residual)
+    variances = np.sum(residual**2, axis=1) / 2
+    # the squares of two normal numbers have an exponential distribution
+    rounding = 1e-13 * np.max(np.abs(y / rate))
+    return float(np.sqrt(np.quantile(variances, 1 / 3) / -np.log(1 - 1 / 3)) + rounding)
