@@ -6,7 +6,6 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
-from threadpoolctl import ThreadpoolController
 
 from ..arrays import Numbers, numbers_of, shape_of
 from ..body import Body
@@ -171,6 +170,8 @@ def _each(
 @cache
 def _pools() -> Any:
     """The threads of linear algebra; for matrices as small as these, one is faster than several."""
+    from threadpoolctl import ThreadpoolController
+
     return ThreadpoolController()
 
 
