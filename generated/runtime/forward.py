@@ -12,6 +12,9 @@ from .body import Body
 from .inverse import contact, contact_at_tilt
 from .kernels import loop, opened
 
+UNIT = {"E_star": 1.0}
+"""The modulus for which kernels solve."""
+
 
 @loop
 def each_state(law: Any, given: Any, own: Any, out: Any) -> None:

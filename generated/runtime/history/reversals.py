@@ -50,15 +50,22 @@ from .nearest import ROUNDING
 IN_PHASE = 1e-9
 """Largest difference between sigma and k Q, relative to the largest sigma."""
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(14)
-_NODES, _WEIGHTS = (1 + _NODES) / 2, _WEIGHTS / 2
-"""Gauss's rule on (0, 1)."""
 
-_PLACES, _LENGTHS = np.polynomial.legendre.leggauss(24)
-_PLACES, _LENGTHS = (1 + _PLACES) / 2, _LENGTHS / 2
-_LENGTHS *= 140 * _PLACES**3 * (1 - _PLACES) ** 3
-_PLACES = _PLACES**4 * (35 - 84 * _PLACES + 70 * _PLACES**2 - 20 * _PLACES**3)
-"""The same, for a function that has a square root or a logarithm at both ends."""
+def _gauss(count: int) -> tuple[Array, Array]:
+    """Gauss's rule on (0, 1)."""
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    return (1 + nodes) / 2, weights / 2
+
+
+def _gauss_with_ends(count: int) -> tuple[Array, Array]:
+    """The same, for a function that has a square root or a logarithm at both ends."""
+    s, weights = _gauss(count)
+    nodes = s**4 * (35 - 84 * s + 70 * s**2 - 20 * s**3)
+    return nodes, weights * 140 * s**3 * (1 - s) ** 3
+
+
+_NODES, _WEIGHTS = _gauss(14)
+_PLACES, _LENGTHS = _gauss_with_ends(24)
 
 
 # ---------------------------------------------------------------- one branch

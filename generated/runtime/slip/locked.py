@@ -28,7 +28,7 @@ import numpy as np
 
 from ..arrays import solved
 from ..body import Body
-from ..forward import each_contact, each_pressure
+from ..forward import UNIT, each_contact, each_pressure
 from ..types import Array, Contact, Edges, Regime
 from .growth import PARTS
 from .shear import each_shear_change
@@ -39,8 +39,6 @@ POINTS = 200
 
 LIMIT_RTOL = 1e-3
 """Allowance for the error of the integrals, relative to f P."""
-
-_UNIT = {"E_star": 1.0}
 
 
 def carries(
@@ -56,13 +54,13 @@ def carries(
         return True
     part = np.linspace(0.0, 1.0, PARTS + 1)[:, None]
     P, M = (first[k] + part * rise[k] for k in range(2))
-    path = solved(each_contact, body, {"P": P, "M": M}, _UNIT, own, Contact)
+    path = solved(each_contact, body, {"P": P, "M": M}, UNIT, own, Contact)
     angle = np.pi * (np.arange(POINTS) + 0.5) / POINTS
     left, right = (max(edges[0, 0], edges[-1, 0]) for edges in path[:2])
     x = -left + (left + right) * np.sin(angle / 2) ** 2
     weight = np.pi / POINTS * (left + right) / 2 * np.sin(angle)
     given = {"x": x, "a": path.a, "c": path.c}
-    limit = f * solved(each_pressure, body, given, _UNIT, own)
+    limit = f * solved(each_pressure, body, given, UNIT, own)
     there = back = np.zeros_like(limit)
     if not stays:
         there = _changes(body, own, f, path, rise, x)
@@ -88,7 +86,7 @@ def _changes(
     cycle = {"a_1": path.a[0], "c_1": path.c[0], "a_2": path.a[1:], "c_2": path.c[1:]}
     cycle |= {"dQ": part * rise[2], "dsigma": part * rise[3]}
     regime = {"regime": Regime.LARGE}
-    zone = solved(each_zone_of_regime, body, cycle | regime, {"f": f, **_UNIT}, own, Edges)
+    zone = solved(each_zone_of_regime, body, cycle | regime, {"f": f, **UNIT}, own, Edges)
     given = cycle | {"m": zone.left, "n": zone.right} | regime | {"x": x}
-    dq = solved(each_shear_change, body, given, {"f": f, **_UNIT}, own)
+    dq = solved(each_shear_change, body, given, {"f": f, **UNIT}, own)
     return np.concatenate([np.zeros((1, x.size)), dq])

@@ -21,7 +21,7 @@ import numpy as np
 
 from ..arrays import solved
 from ..body import Body
-from ..forward import each_contact
+from ..forward import UNIT, each_contact
 from ..types import Array, Contact, Edges, March, Regime, StickZone
 from .locked import carries
 from .zone import each_stick_zone, each_zone_of_regime
@@ -34,8 +34,6 @@ PHASE_RTOL = 1e-6
 
 LOAD_RTOL = 1e-12
 """Loads whose relative change is below this are constant."""
-
-_UNIT = {"E_star": 1.0}
 
 
 class _Way(NamedTuple):
@@ -60,13 +58,13 @@ def marched(
     body: Body, own: dict[str, Any], f: Array, P: Array, M: Array, Q: Array, sigma: Array
 ) -> March:
     """Steady cycles instant by instant, for E* = 1.  The shapes are equal, but for constants."""
-    contact = solved(each_contact, body, {"P": P, "M": M}, _UNIT, own, Contact)
+    contact = solved(each_contact, body, {"P": P, "M": M}, UNIT, own, Contact)
     loads, roundings = np.stack([P, M, Q, sigma]), _roundings(contact, f, P, M, Q, sigma)
     way = _way(loads, roundings)
     ends = [at(way.progress, axis=-1)[..., None] for at in (np.argmin, np.argmax)]
     low, high = (_at(loads, end) for end in ends)
     whole = _half_cycle(contact, (ends[0], ends[1]), high - low, roundings)
-    constants = {"f": f, **_UNIT}
+    constants = {"f": f, **UNIT}
     m, _, regime = solved(each_stick_zone, body, whole, constants, own, StickZone, ("regime",))
     refused, refusal = _refusal(way, loads, contact, f)
     regime = np.where(refused, refusal, regime)

@@ -46,7 +46,7 @@ from scipy.optimize import brentq, root
 from ..arrays import solved
 from ..body import Body
 from ..elementary import EPS
-from ..forward import breaks_of, each_pressure
+from ..forward import UNIT, breaks_of, each_pressure
 from ..types import Array, Edges, Regime, StickZone
 from .quadrature import double_exponential
 from .zone import each_zone_of_regime
@@ -74,8 +74,6 @@ that fail, as (a + n - H)/(a + c).  It is off by less than the square of this.""
 _NODES, _WEIGHTS = double_exponential(1 / 12)
 _ANGLES, _GAUSS = ((1 + v) / 2 for v in np.polynomial.legendre.leggauss(64))
 _GAUSS -= 0.5  # rule on (0, 1)
-
-_UNIT = {"E_star": 1.0}
 
 Place = Callable[[Array], Array]
 """A function of position; it takes and returns arrays."""
@@ -426,7 +424,7 @@ def _mixed_zone(
     sense, edges = math.copysign(1.0, dsigma), {"a": a, "c": c}
 
     def limit(x: Array) -> Array:
-        p = solved(each_pressure, body, {"x": sense * x, **edges}, _UNIT, own)
+        p = solved(each_pressure, body, {"x": sense * x, **edges}, UNIT, own)
         return np.where(p < math.inf, 2 * f * p, 0.0)
 
     cuts, H = sense * breaks_of(body, own), 8 * dQ / (np.pi * abs(dsigma))
@@ -448,7 +446,7 @@ def with_mixed(
     shape = np.shape(zone.m)
     m, n, regime = (np.array(v).ravel() for v in zone)
     at = {**cycle, "regime": Regime.MODERATE}
-    moderate = solved(each_zone_of_regime, body, at, {"f": f, **_UNIT}, own, Edges)
+    moderate = solved(each_zone_of_regime, body, at, {"f": f, **UNIT}, own, Edges)
     values = {**cycle, "f": f, **moderate._asdict(), **own}
     given = {name: np.broadcast_to(value, shape).ravel() for name, value in values.items()}
     steady = (given["a_1"] == given["a_2"]) & (given["c_1"] == given["c_2"])

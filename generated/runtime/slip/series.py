@@ -121,7 +121,7 @@ def _second_order(at_left: Any, at_right: Any, h: float, left: float, right: flo
 
 
 @kernel
-def beside_edges(at_left: Any, at_right: Any, h: float, order: int) -> Any:
+def _zones(at_left: Any, at_right: Any, h: float, order: int) -> Any:
     """Slip zones to an order in a contact of width h.
 
     NaN unless slip occurs at both edges of both contacts and part of the contact sticks.  If no
@@ -162,5 +162,5 @@ def each_slip_zones(law: Any, given: Any, own: Any, out: Any) -> None:
         kappa, kappa_2 = -f if drive < 0 else f, -f if drive_2 < 0 else f
         at_left = Edge(K, L, K_2, L_2, kappa, da, drive)
         at_right = Edge(K_right, L_right, K_right_2, L_right_2, kappa_2, dc, drive_2)
-        out[i, 0], out[i, 1] = beside_edges(at_left, at_right, h, 1)
-        out[i, 2], out[i, 3] = beside_edges(at_left, at_right, h, 2)
+        out[i, 0], out[i, 1] = _zones(at_left, at_right, h, 1)
+        out[i, 2], out[i, 3] = _zones(at_left, at_right, h, 2)
