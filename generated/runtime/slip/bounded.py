@@ -110,13 +110,15 @@ def _integrals(zone: Any, stuck: float) -> Any:
     finite = -2 * first / math.sqrt(zone.length)
     for i in range(zone.y.size):
         y, weight = zone.y[i], zone.weight[i]
-        root = math.sqrt(y)
-        force = weight * zone.r[i] / (root * math.sqrt(stuck + y))
-        near += force * (stuck + y)
+        from_other_end = stuck + y
+        inverse = 1 / (y * from_other_end)
+        force = weight * zone.r[i] * math.sqrt(inverse)
+        near += force * from_other_end
         far += force * y
-        beyond += force / (stuck + y)
+        beyond += force * y * inverse
         if y > NEAREST * zone.length:
-            finite += (force - weight * first / root) / y
+            inverse *= from_other_end
+            finite += (force - weight * first * math.sqrt(inverse)) * inverse
     return near, far, finite, beyond
 
 
