@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+import derive.proof.verdict
 import derive.terminal
 from derive.cache import VARIABLE
 
@@ -22,13 +23,19 @@ if "PYTHONPATH" in os.environ:
     _FOLDERS = os.environ["PYTHONPATH"].split(os.pathsep)
     os.environ["PYTHONPATH"] = os.pathsep.join(str(Path(folder).resolve()) for folder in _FOLDERS)
 
+derive.proof.verdict.POINTS = 8
+"""Points of a proof in the tests; `derive` takes 24, which makes proofs three times as long.
+
+A difference of analytic functions is none at nearly every point or nowhere; set before any other
+module has read it."""
+
 # SymPy makes millions of small objects that stay: the collector need not look at them so often.
 gc.set_threshold(100_000, 50, 50)
 
 _NUMBERS = count()
 
 LONGEST = ("test_the_committed_package_is_as_generated", "test_a_fresh_run_gives_what_is_committed")
-SHARED = {"findings", "installed"}
+SHARED = {"installed"}
 
 SLOW_EXAMPLES = {"derive.proof.prove.prove_sheet"}
 """Examples in docstrings cannot be marked where they stand."""

@@ -190,15 +190,7 @@ def test_a_file_that_holds_no_body(text: str, words: str, here: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "text",
-    [
-        f'{HEAD}geometry = Geometry("bad", g=-x**2 / R)\n',
-        "raise KeyboardInterrupt",
-        "import sys\nsys.exit(0)",
-        "def f(): f()\nf()",
-    ],
-)
+@pytest.mark.parametrize("text", ["raise KeyboardInterrupt", "import sys\nsys.exit(0)"])
 def test_a_file_is_refused_in_the_same_words_by_a_process_with_limits(
     text: str, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

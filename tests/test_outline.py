@@ -104,8 +104,8 @@ def value(expr: Expr, name: str) -> float:
     return result.real
 
 
-SLOW = ("bounded", "stick", "stick_zone")
-"""Equations with a principal value or with slip zones, which take ten seconds and more."""
+SLOW = ("bounded", "tilt", "stick", "stick_zone")
+"""Equations with integrals that take many seconds."""
 
 EACH = [
     pytest.param(name, marks=[pytest.mark.thorough] * (name in SLOW)) for name in OUTLINE.EQUATIONS

@@ -13,7 +13,7 @@ from derive.cache import users_cache
 from derive.errors import NotProven
 from derive.library import FOLDER, library
 from derive.parallel import Report
-from derive.pipeline import DONE, KEPT, STAGES, build, build_all
+from derive.pipeline import DONE, KEPT, STAGES, build_all
 from derive.proof.verdict import Verdict
 
 ROOT = Path(__file__).parents[1]
@@ -52,32 +52,6 @@ def files(tmp_path: Path) -> list[str]:
 
 
 # ------------------------------------------------------------------ in earnest
-
-
-OWN = {
-    "an exponential up to e": "b*phi*exp(x/b) + phi*Max(0, x - b)",
-    "numbers that SymPy keeps exact": "phi*b*exp((x/b - pi**Rational(1, 3))/sqrt(2)) + phi*Abs(x)",
-    "an irrational power": "x**2/(2*R) + phi*x + b*(Abs(x)/b)**pi",
-    "an elliptical tip": "Piecewise((b*(1 - sqrt(1 - x**2/R**2)), Abs(x) < R*phi/sqrt(phi**2 + "
-    "b**2/R**2)), (b + phi*Abs(x) - sqrt(b**2 + R**2*phi**2), True))",
-    "a cubic that is switched on": "Max(0, x**3 - b**3)/L**2 + x**2/(2*R)",
-}
-"""Bodies that nobody here thought of, from a file of one's own to a proven module."""
-
-
-@pytest.mark.thorough
-@pytest.mark.slow
-@pytest.mark.parametrize("words", OWN)
-def test_a_body_of_one_s_own_is_proven_and_tried(words: str, tmp_path: Path) -> None:
-    head = "from sympy import *\nfrom derive import Geometry, parameter, x\n"
-    made = [
-        'R, b, L = (parameter(name, "length", unit="m") for name in ("R", "b", "L"))',
-        'phi = parameter("phi", "slope", unit="rad")',
-        f'geometry = Geometry("own", g={OWN[words]})',
-    ]
-    (tmp_path / "own.py").write_text(head + "\n".join(made))
-    body = build(str(tmp_path / "own.py"))
-    assert {verdict for _, verdict in body.verdicts} <= {Verdict.PROVEN, Verdict.NUMERICAL}
 
 
 WITHOUT_SYMPY = """

@@ -17,6 +17,8 @@ OPTIONAL = ("jinja2", "latex2mathml", "matplotlib", "tqdm", "dask", "ipywidgets"
 BLOCKING = f"""
 import sys
 sys.modules.update(dict.fromkeys({OPTIONAL}))  # an import then fails
+import derive.proof.verdict
+derive.proof.verdict.POINTS = 4  # for 24, a third of a minute
 """
 
 EXAMPLES = r"""

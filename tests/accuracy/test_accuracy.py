@@ -28,13 +28,13 @@ def test_contacts_are_within_their_bounds(body: str, name: str) -> None:
 @pytest.mark.parametrize("name", [n for n in NAMES if n.startswith(("stick", "shear", "march"))])
 @pytest.mark.parametrize("body", ["wedge", "flat_rounded"])
 def test_cycles_are_within_their_bounds(body: str, name: str) -> None:
-    for row in worst_of(body, name, 40):
+    for row in worst_of(body, name, 20):
         assert row.met, row
 
 
 @pytest.mark.parametrize("name", ["load", "pressure", "contact", "stick_zone, moderate"])
 def test_what_is_integrated_is_within_its_bounds(name: str) -> None:
-    for row in worst_of("hyperbola", name, 40):
+    for row in worst_of("hyperbola", name, 20):
         assert row.met and not row.lost, row
 
 

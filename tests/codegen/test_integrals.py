@@ -29,14 +29,11 @@ BODIES: dict[str, Expr] = {
         (phi * (3 * x**2 / (4 * b) - x**4 / (8 * b**3)), Abs(x) < b),
         (phi * (Abs(x) - 3 * b / 8), True),
     ),
-    "a quartic about another place": (x - b) ** 4 / R**3,
     "catenary": b**2 / R * (cosh(x / b) - 1),
 }
 PLACES = (
     ("cubic edges", (-0.25, 2.0, 0.75)),
     ("a smooth tip and a corner", (2.5, 1.5, 0.3)),
-    ("a smooth tip and a corner", (0.25, 1.25, -0.125)),
-    ("a quartic about another place", (1.25, 0.75, -0.875)),
     ("catenary", (2.5, 1.5, 0.3)),
 )
 """A body with a, c and x; b = 0.5 and R = 1.5.  The first one prints L_N alone in this way."""
@@ -102,7 +99,7 @@ def _finite_part(integrand: Expr, body: Integrals, point: Point) -> mpf:
 
 
 @pytest.mark.slow
-@pytest.mark.enough("cubic*", "*corner-(2.5*", "catenary*")
+@pytest.mark.enough("cubic*", "*corner-(2.5*")
 @pytest.mark.parametrize(("name", "given"), PLACES, ids=str)
 def test_the_printed_integrals_are_the_formulas_of_the_sheet(
     name: str, given: tuple[float, float, float]

@@ -29,6 +29,7 @@ from derive.derivation import derive_sheet
 from derive.errors import BadProfile
 from derive.limit import within
 from derive.proof.points import contacts, holds
+from derive.proof.verdict import POINTS
 from derive.sheet import load_conditions, tilt_conditions
 
 pytestmark = pytest.mark.slow
@@ -191,5 +192,5 @@ def test_the_sheet_says_what_is_demanded_and_draws_contacts_that_meet_it() -> No
     assert condition in tilt_conditions(sheet.frame)
     assert "L >= 3750*R" in sheet["load"].assumptions
     drawn = contacts(sheet)
-    assert len(drawn) == 24
+    assert len(drawn) == POINTS
     assert all(holds([condition], point) for point in drawn)

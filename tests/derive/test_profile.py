@@ -139,12 +139,6 @@ def test_kinks_are_found_from_left_to_right(g: Expr, places: list[str], sides: l
     [
         (sqrt(x**2 - 2 * x * b + b**2) * phi, phi * Abs(x - b)),
         (phi * sqrt(x**2 - 2 * sqrt(3) * x * b + 3 * b**2), phi * Abs(x - sqrt(3) * b)),
-        (b * ((x / b) ** 2) ** (1 + psi / 2), b * (Abs(x) / b) ** (2 + psi)),
-        pytest.param(
-            phi * sqrt((x**2 - 2 * x * b + b**2) * (x**2 + b**2)) / b,
-            phi * Abs(x - b) * sqrt(x**2 + b**2) / b,
-            marks=pytest.mark.thorough,
-        ),
     ],
     ids=str,
 )
@@ -175,7 +169,7 @@ _coefficient = st.fractions(min_value=Fraction(1, 8), max_value=4, max_denominat
 
 
 @pytest.mark.slow
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(
     st.lists(
         st.tuples(_coefficient, st.integers(-3, 3), st.integers(1, 3)), min_size=1, max_size=3

@@ -38,7 +38,7 @@ WIDEST = {"catenary": 1.0, "circular_arc": -0.1}
 """Decades of the widest contact, where a body ends or its load leaves float64."""
 
 EVERY = pytest.mark.parametrize("name", sorted(OWN))
-COUNT = 150
+COUNT = 60
 E_STAR = 1.75
 
 A, C = np.array([1.25, 1.5, 1.125]), np.array([1.5, 1.25, 1.0625])

@@ -1,16 +1,15 @@
-"""The findings of the whole paper, made once a process.
-
-Tests of all of them are thorough: notebook 08, which `make test` executes, makes them too, and
-stops where a verdict is not the expected one.
-"""
+"""What the tests of the checker share."""
 
 import pytest
 
-from derive.paper.userfile import built_in as paper
-from derive.paper.verdict import Finding, check
+from derive.limit import LimitReached
 
 
-@pytest.fixture(scope="session")
-def findings() -> dict[str, Finding]:
-    """The findings by label."""
-    return {claim.label: check(claim) for claim in paper().claims}
+@pytest.fixture
+def unmended(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without the seconds of a search for a correction."""
+
+    def stopped(*_: object) -> None:
+        raise LimitReached
+
+    monkeypatch.setattr("derive.paper.verdict.repaired", stopped)

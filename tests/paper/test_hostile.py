@@ -82,7 +82,6 @@ FILES = {
     "body is a path": claim("a = b", "body = '../../evil.py'"),
     "body is code": claim("a = b", "body = { g = '__import__(\"os\")' }"),
     "body is empty": claim("a = b", "body = { }"),
-    "body aborts": claim("a = b", "body = { g = 'exp(exp(exp(exp(x/R))))*R' }"),
     "body has odd units": claim("a = b", "body = { g = 'x**2/R', units = { R = 'parsec' } }"),
     "unit of a variable": HEAD.replace('a = "a"', "a = { unit = 'furlong' }") + claim("a = b")[60:],
     "units are a bomb": symbols("X = { is = 'a', unit = '" + "(" * 500 + "m" + ")" * 500 + "' }"),

@@ -15,7 +15,6 @@ from time import monotonic
 import pytest
 
 from derive.errors import BadClaimsFile
-from derive.limit import LimitReached
 from derive.paper.claim import Verdict
 from derive.paper.report import evidence
 from derive.paper.verdict import Finding, is_carried
@@ -36,16 +35,6 @@ GOOD = {Verdict.HOLDS, Verdict.NUMERICAL}
 
 def judged(folder: Path, printed: str, head: str = HEAD) -> Finding:
     return asking.judged(folder, head + asking.claim(printed))
-
-
-@pytest.fixture
-def unmended(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without the seconds of a search for a correction."""
-
-    def stopped(*_: object) -> None:
-        raise LimitReached
-
-    monkeypatch.setattr("derive.paper.verdict.repaired", stopped)
 
 
 # ------------------------------------------------------------------ true and false
@@ -230,7 +219,7 @@ def test_what_says_nothing_is_no_correction(tmp_path: Path, printed: str) -> Non
 
 def test_what_is_true_to_working_digits_is_no_correction(tmp_path: Path) -> None:
     """1 + tanh(10**6*(w - 1.6)) is below exp(-10**6) where w < 0.9, which is not zero."""
-    finding = judged(tmp_path, "w + (1 + tanh(10**6*(w - 1.6)))/2 = w", "seconds = 2\n" + HEAD)
+    finding = judged(tmp_path, "w + (1 + tanh(10**6*(w - 1.6)))/2 = w", "seconds = 1\n" + HEAD)
     assert finding.verdict == Verdict.NUMERICAL
     claim = finding.claim
     assert not is_carried(claim, claim.left, claim.right, finding.judged)
@@ -252,9 +241,9 @@ def test_a_verdict_that_takes_too_long_is_none(tmp_path: Path) -> None:
 def test_a_search_that_takes_too_long_leaves_the_verdict(tmp_path: Path) -> None:
     began = monotonic()
     printed = "integral(sign(sin(5*s)), s, 0, 3) = 18*pi/5 - 3 - 12*pi/5 - pi"
-    finding = judged(tmp_path, printed, "seconds = 2\n" + HEAD)
+    finding = judged(tmp_path, printed, "seconds = 1\n" + HEAD)
     assert finding.verdict == Verdict.FAILS
-    assert "the search for a correction: not finished within 2 s" in evidence(finding)
+    assert "the search for a correction: not finished within 1 s" in evidence(finding)
     assert monotonic() - began < 10
 
 

@@ -3,35 +3,14 @@
 import numpy as np
 import pytest
 
-from tests.reference.cases import HERTZ, HERTZ_LOAD, Known
 from tests.reference.conditions import LARGE, MODERATE
 from tests.reference.explore import cycle, narrowest, threshold, window
 from tests.reference.kernel import Surface
 from tests.reference.mesh import graded
 from tests.reference.mixed import NotInWindow, turning
-from tests.reference.solver import level, reference
+from tests.reference.solver import level
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.mark.thorough  # test_explore.py has one such cycle
-@pytest.mark.parametrize("part", [0.95, 1.0, 1.05, 1.085])
-def test_wedge(part: float) -> None:
-    known = cycle(part * threshold())
-    found, exact = reference(known.case, (16, 32, 64), (8, 16, 32)), turning(known.half_cycle)
-    assert np.all(np.abs(np.subtract(found.zone, exact.zone)) <= found.error)
-    assert max(found.error) < 3e-4
-
-
-@pytest.mark.thorough
-def test_hertz() -> None:
-    # the threshold of the paper, 4 f E*/R (b - sqrt(b^2 - 2 R dQ/(pi E* f))), with b = R = E* = 1
-    dQ, f = 0.15 * HERTZ_LOAD, 0.5
-    dsigma = 4 * f * (1 - np.sqrt(1 - 2 * dQ / (np.pi * f)))
-    known = Known("", HERTZ, LARGE, dQ, dsigma, (HERTZ_LOAD, HERTZ_LOAD))
-    found, exact = reference(known.case, (24, 48, 96), (8, 8, 16)), turning(known.half_cycle)
-    assert np.all(np.abs(np.subtract(found.zone, exact.zone)) <= found.error)
-    assert 1 - exact.zone.n == pytest.approx(1 - found.zone.n, rel=0.05)
 
 
 @pytest.mark.parametrize(

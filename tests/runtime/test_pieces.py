@@ -9,7 +9,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from generated import catenary, circular_arc, hyperbola, power
+from generated import hyperbola, power
 from generated.runtime import pieces
 from generated.runtime.body import Body as Runtime
 from generated.runtime.forward import each_pressure, each_series, each_state
@@ -145,9 +145,9 @@ KINKED = Body(
 )
 BODIES = {"power": _of_power(1.5), "hyperbola": HYPERBOLA, "kinked": KINKED}
 CONTACTS = {
-    "power": [(1.0, 0.5), (-0.25, 1.0), (1.0, 2e-9), (1.0, -1e-9)],
-    "hyperbola": [(1.0, 0.5), (-0.25, 1.0), (20.0, 30.0), (0.01, 0.02)],
-    "kinked": [(1.0, 0.5), (0.125, 2.0), (0.5, 0.25 + 1e-9), (1e-9, 1.0)],
+    "power": [(1.0, 0.5), (1.0, -1e-9)],
+    "hyperbola": [(-0.25, 1.0), (20.0, 30.0)],
+    "kinked": [(1.0, 0.5), (0.5, 0.25 + 1e-9)],
 }
 CASES = [(name, *contact) for name, contacts in CONTACTS.items() for contact in contacts]
 
@@ -173,7 +173,7 @@ def test_states_and_pressures_are_the_integrals_that_define_them(name, a, c):
             assert found == pytest.approx(float(exact), rel=1e-12, abs=0)
 
 
-@pytest.mark.parametrize(("name", "a", "c"), CASES[:2] + CASES[4:6] + CASES[8:10])
+@pytest.mark.parametrize(("name", "a", "c"), CASES[::2])
 def test_L_N_is_what_the_pressure_tends_to_at_an_edge(name, a, c):
     body = BODIES[name]
     K_left, K_right = body.state(a, c)[3:]
@@ -192,39 +192,7 @@ def test_slopes_are_those_of_the_piece_on_the_right():
     assert HYPERBOLA.found_slope(-0.75) == pytest.approx([float(v) for v in wanted], rel=1e-15)
 
 
-# ---------------------------------------------------------------- closed formulas
-
-
-def test_the_third_power_is_what_a_hand_finds():
-    """P = (1/2) int 2 |s| sqrt(1 - s**2) ds; p(0) = (1/(2 pi)) int |s|/sqrt(1 - s**2) ds."""
-    given = {"E_star": 1.0, "L": 1.0, "k": 3.0}
-    assert float(power.load(1.0, 1.0, **given)) == pytest.approx(2 / 3, rel=1e-14)
-    assert float(power.pressure(0.0, 1.0, 1.0, **given)) == pytest.approx(1 / math.pi, rel=1e-14)
-
-
-@pytest.mark.parametrize(("a", "c"), [(1.0, 1.0), (2.0, -0.5), (30.0, 20.0)])
-def test_loads_of_a_catenary_are_bessel_functions(a, c):
-    R, b = 2.0, 0.75
-    mid, half = mp.mpf(c - a) / 2, mp.mpf(a + c) / 2
-    load = mp.cosh(mid / b) * mp.pi * half * b * mp.besseli(1, half / b) / (2 * R)
-    tilt = -b / R * mp.sinh(mid / b) * mp.besseli(0, half / b)
-    found = catenary.load(a, c, E_star=1.0, R=R, b=b), catenary.tilt(a, c, R=R, b=b)
-    assert float(found[0]) == pytest.approx(float(load), rel=1e-13)
-    assert float(found[1]) == pytest.approx(float(tilt), rel=1e-12)
-
-
-# ---------------------------------------------------------------- symmetry, scale, existence
-
-
-@pytest.mark.parametrize("size", [1e-70, 1e-9, 1e60])
-def test_loads_grow_with_the_size_of_a_body(size):
-    """One factor for all lengths, with the powers of load, moment, tilt and K_N."""
-    b, phi = HYPERBOLA.case.own
-    larger = Body(hyperbola._BODY, [b * size, phi], None, None)
-    grown = HYPERBOLA.found_state(1.0, 0.5) * size ** np.array([1, 2, 0, -0.5, -0.5])
-    assert larger.found_state(size, 0.5 * size) == pytest.approx(grown, rel=1e-13)
-    found = larger.found_pressure(0.1 * size, size, 0.5 * size)
-    assert found == pytest.approx(HYPERBOLA.found_pressure(0.1, 1.0, 0.5), rel=1e-13)
+# ---------------------------------------------------------------- existence
 
 
 def test_what_is_no_contact_carries_nothing():
@@ -234,11 +202,6 @@ def test_what_is_no_contact_carries_nothing():
     assert HYPERBOLA.found_pressure(2.0, 1.0, 1.0) == 0
     assert KINKED.found_pressure(0.0, 1.0, 1.0) == math.inf
     assert 0 < KINKED.found_pressure(1e-300, 1.0, 1.0) < 100
-
-
-def test_a_contact_beyond_the_curve_has_no_load():
-    inside, beyond = circular_arc.load(0.5, [0.75, 1.25], E_star=1.0, R=1.0)
-    assert np.isfinite(inside) and np.isnan(beyond)
 
 
 def test_an_edge_on_an_infinite_curvature_has_no_K_N():

@@ -12,6 +12,7 @@ from derive.geometry import Geometry, parameter
 from derive.notation import text_of
 from derive.proof.points import contacts, numeric, numeric_by_steps
 from derive.proof.prove import prove_sheet
+from derive.proof.verdict import POINTS
 from derive.sheet import FormulaSheet
 from derive.symbols import x
 from derive.theory.edges import Edge, pressure_series
@@ -47,7 +48,7 @@ def test_the_sums_are_the_derived_formulas(name: str) -> None:
     sheet = sheet_of(name)
     parts, points = Parts(sheet.frame), contacts(sheet)
     steps = [(d.symbol, written_out(d.expr)) for d in parts.definitions]
-    assert len(points) == 24
+    assert len(points) == POINTS
     for formula, expr in parts.formulas.items():
         if formula.startswith("third_"):
             edge = Edge[formula.removeprefix("third_").upper()]
