@@ -47,9 +47,13 @@ from .quadrature import RULES, slip_zone
 NEWTON_RTOL = 1e-4
 """Newton's method ends after a step below this: the next one would be its square."""
 
-RULE_RTOL = 1e-7
+ROUGH_RTOL, RULE_RTOL = 1e-7, 2e-10
 """Slip zones whose relative change from one rule to the next is below this are exact by the finer
-rule, which takes one step of about this length."""
+rule, which takes one step of about this length.  The first number serves where no singularities are
+close to each other, because the error of a rule is then the square of that of the rule before."""
+
+MIN_GAP = 0.05
+"""Singularities of r that are closer to each other than this part of a slip zone are close."""
 
 MAX_STEPS = 40
 """Largest number of steps of Newton's method."""
@@ -123,13 +127,16 @@ def _integrals(zone: Any, stuck: float) -> Any:
 
 
 @kernel
-def _sums(law: Any, own: Any, of: Any, m: float, n: float, rule: int) -> Any:
-    """L and R beside [-m, n], and twice dL/dm and dR/dn without the terms in F."""
-    stuck = m + n
-    left = slip_zone(law, own, of.cycle, -1.0, m, math.nan, rule)
-    right = slip_zone(law, own, of.cycle, 1.0, n, math.nan, rule)
-    near_left, far_left, C_left, D_left = _integrals(left, stuck)
-    near_right, far_right, C_right, D_right = _integrals(right, stuck)
+def _sums(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -> Any:
+    """L and R of slip zones, and twice dL/dm and dR/dn without the terms in F.
+
+    left, right: their lengths in the smaller contact
+    """
+    stuck = of.a + of.c - left - right
+    on_left = slip_zone(law, own, of.cycle, -1.0, left, math.nan, rule)
+    on_right = slip_zone(law, own, of.cycle, 1.0, right, math.nan, rule)
+    near_left, far_left, C_left, D_left = _integrals(on_left, stuck)
+    near_right, far_right, C_right, D_right = _integrals(on_right, stuck)
     return (
         of.kappa * near_left + of.lamda * far_right,
         of.kappa * far_left + of.lamda * near_right,
@@ -159,7 +166,7 @@ def _newton(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -
     for _ in range(MAX_STEPS):
         next_left, next_right = moved(width, left, right, part * by_left, part * by_right)
         stuck = width - next_left - next_right
-        L, R, by_m, by_n = _sums(law, own, of, of.a - next_left, of.c - next_right, rule)
+        L, R, by_m, by_n = _sums(law, own, of, next_left, next_right, rule)
         drive_left, drive_right = drives(of.cycle, stuck)
         off_left, off_right = L - drive_left, R - drive_right
         error = off_left * off_left + off_right * off_right
@@ -194,7 +201,7 @@ def _placed(law: Any, own: Any, of: Any, stuck: float, n: float, rule: int) -> A
     drive_left, drive_right = drives(of.cycle, stuck)
     for _ in range(2 * MAX_STEPS):
         n = search.y
-        L, R, by_m, by_n = _sums(law, own, of, stuck - n, n, rule)
+        L, R, by_m, by_n = _sums(law, own, of, of.a - stuck + n, of.c - n, rule)
         value, rate = drive_left * R - drive_right * L, (drive_left * by_n + drive_right * by_m) / 2
         search = narrowed(search, value, rate)
         if search.step == 0:
@@ -226,37 +233,54 @@ def _bracketed(law: Any, own: Any, of: Any, rule: int) -> Any:
 
 
 @kernel
-def zone_between(law: Any, own: Any, of: Any) -> Any:
+def _is_clear(law: Any, own: Any, cycle: Any, side: float, start: float) -> bool:
+    """Whether the singularities of r in and beside a slip zone are not close to each other: breaks
+    of the body, the edges of both contacts, and the start of the zone."""
+    edge_1, edge_2 = (cycle.a_1, cycle.a_2) if side < 0 else (cycle.c_1, cycle.c_2)
+    length, breaks = max(edge_1, edge_2) - start, law.breaks(own)
+    gap = MIN_GAP * length
+    for at in breaks:
+        y = side * at - start
+        if -gap < y < length + gap:
+            if min(abs(y), abs(edge_1 - start - y), abs(edge_2 - start - y)) < gap:
+                return False
+            for other in breaks:
+                if 0 < abs(other - at) < gap:
+                    return False
+    return True
+
+
+@kernel
+def zone_between(law: Any, own: Any, of: Any, rtol: float) -> Any:
     """m and n between slip in opposite directions.
 
     The regime is LARGE, or UNSOLVED if they are not found, or MIXED if slip has reversed.
+    rtol: the change from one rule to the next that is accepted where singularities are close.
     """
     rounding = 16 * EPS * (of.a + of.c)
     left, right = _first_guess(law, own, of)
-    smooth = True
     for rule in range(RULES):
         last_left, last_right, reverses = left, right, False
-        if smooth:
-            left, right = _newton(law, own, of, left, right, rule)
-        smooth = smooth and left + right < math.inf
-        if not smooth:
+        left, right = _newton(law, own, of, left, right, rule)
+        if not left + right < math.inf:
             left, right, reverses = _bracketed(law, own, of, rule)
         if reverses:
             return math.nan, math.nan, Regime.MIXED
-        if (
-            rule > 0
-            and abs(left - last_left) <= RULE_RTOL * left + rounding
-            and abs(right - last_right) <= RULE_RTOL * right + rounding
-        ):
-            return of.a - left, of.c - right, Regime.LARGE
+        m, n = of.a - left, of.c - right
+        change_left = (abs(left - last_left) - rounding) / left
+        change = max(change_left, (abs(right - last_right) - rounding) / right)
+        if rule > 0 and change <= ROUGH_RTOL:
+            clear = _is_clear(law, own, of.cycle, -1.0, m) and _is_clear(law, own, of.cycle, 1.0, n)
+            if clear or change <= rtol:
+                return m, n, Regime.LARGE
     return math.nan, math.nan, Regime.UNSOLVED
 
 
 @kernel
-def zone_of(law: Any, own: Any, of: Any, ends: Any) -> Any:
+def zone_of(law: Any, own: Any, of: Any, ends: Any, rtol: float) -> Any:
     """m and n while slip grows in given directions, and the regime, as in `zone_between`."""
     if of.kappa != of.lamda:
-        return zone_between(law, own, of)
+        return zone_between(law, own, of, rtol)
     load, tilt = (ends.load_1 + ends.load_2) / 2, (ends.tilt_1 + ends.tilt_2) / 2
     f = of.cycle.f
     load, tilt = load - of.cycle.dQ / (2 * f), tilt - of.cycle.dsigma / (4 * f)

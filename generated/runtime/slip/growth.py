@@ -20,7 +20,8 @@ import math
 from typing import Any
 
 from ..kernels import kernel
-from .bounded import change_between, slipping, zone_of
+from ..types import Regime
+from .bounded import ROUGH_RTOL, change_between, slipping, zone_of
 from .cycles import Cycle, Ends, advances, drives, is_steady, on_the_way
 from .quadrature import ROUGH, slip_zone
 
@@ -146,8 +147,8 @@ def _within_friction(law: Any, own: Any, of: Any, m: float, n: float, zone: Any)
     of, m, n: a part of the half-cycle, and its stick zone; zone: the final stick zone.
     """
     cycle = of.cycle
-    left = slip_zone(law, own, cycle, -1.0, m, math.nan, ROUGH)
-    right = slip_zone(law, own, cycle, 1.0, n, math.nan, ROUGH)
+    left = slip_zone(law, own, cycle, -1.0, of.a - m, math.nan, ROUGH)
+    right = slip_zone(law, own, cycle, 1.0, of.c - n, math.nan, ROUGH)
     for k in range(2 * PLACES):
         part = (k // 2 + 0.5) / PLACES
         x, kappa = -zone[0] - part * (m - zone[0]), of.kappa
@@ -179,10 +180,12 @@ def _up_to(law: Any, own: Any, cycle: Any, ends: Any, sense: float, part: float)
 
 
 @kernel
-def grows(law: Any, own: Any, of: Any, ends: Any, m: float, n: float) -> bool:
-    """Whether both slip zones grow at every point of the way, from both ends, until [-m, n]."""
-    if is_steady(of.cycle):
-        return True
+def grown(law: Any, own: Any, of: Any, ends: Any, m: float, n: float, regime: Any) -> Any:
+    """The regime of a half-cycle that ends with the stick zone [-m, n]: the given one if both slip
+    zones grow at every point of the way, from both ends, until then; otherwise MIXED.
+
+    UNSOLVED if the stick zone of a part of the half-cycle is not found.
+    """
     small = GROWTH_RTOL * (of.a + of.c)
     for sense in (1.0, -1.0):
         last_m = last_n = math.inf
@@ -190,7 +193,9 @@ def grows(law: Any, own: Any, of: Any, ends: Any, m: float, n: float) -> bool:
             now, now_ends = _up_to(law, own, of.cycle, ends, sense, k / PARTS)
             now_of, now_m, now_n = slipping(now, of.kappa, of.lamda), m, n
             if k < PARTS:
-                now_m, now_n, _ = zone_of(law, own, now_of, now_ends)
+                now_m, now_n, found = zone_of(law, own, now_of, now_ends, ROUGH_RTOL)
+                if found == Regime.UNSOLVED:
+                    return found
             if not (
                 now_m <= min(last_m, now_of.a) + small
                 and now_n <= min(last_n, now_of.c) + small
@@ -201,6 +206,6 @@ def grows(law: Any, own: Any, of: Any, ends: Any, m: float, n: float) -> bool:
                     or _within_friction(law, own, now_of, now_m, now_n, (m, n))
                 )
             ):
-                return False
+                return Regime.MIXED
             last_m, last_n = now_m, now_n
-    return True
+    return regime

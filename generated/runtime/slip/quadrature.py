@@ -18,7 +18,7 @@ import numpy as np
 
 from ..kernels import kernel
 
-RULES = 4
+RULES = 5
 """Number of rules, the last one being the finest."""
 
 ROUGH, FINEST = (cast(int, np.int64(rule)) for rule in (1, RULES - 1))
@@ -70,11 +70,15 @@ def limit(law: Any, own: Any, cycle: Any, x: float) -> float:
 
 @kernel
 def slip_zone(
-    law: Any, own: Any, cycle: Any, side: float, start: float, cut: float, rule: int
+    law: Any, own: Any, cycle: Any, side: float, inner: float, cut: float, rule: int
 ) -> SlipZone:
-    """The slip zone on one side of the stick zone; `cut` is one more point x to cut it at."""
+    """The slip zone on one side of the stick zone.
+
+    inner: its length in the smaller contact, from which a very short zone keeps its digits
+    cut: one more point x to cut it at
+    """
     edge_1, edge_2 = (cycle.a_1, cycle.a_2) if side < 0 else (cycle.c_1, cycle.c_2)
-    inner, length = min(edge_1, edge_2) - start, max(edge_1, edge_2) - start
+    start, length = min(edge_1, edge_2) - inner, inner + abs(edge_1 - edge_2)
     breaks, first, last = law.breaks(own), _FIRST[rule], _FIRST[rule + 1]
     nodes = np.empty((3, (breaks.size + 3) * (last - first)))
     count, low = 0, 0.0

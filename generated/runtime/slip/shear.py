@@ -88,8 +88,8 @@ def _changes(law: Any, own: Any, rows: Any, out: Any) -> None:
     )
     between = known and of.kappa != of.lamda
     if between:
-        left = slip_zone(law, own, cycle, -1.0, m, math.nan, FINEST)
-        right = slip_zone(law, own, cycle, 1.0, n, math.nan, FINEST)
+        left = slip_zone(law, own, cycle, -1.0, of.a - m, math.nan, FINEST)
+        right = slip_zone(law, own, cycle, 1.0, of.c - n, math.nan, FINEST)
     for i in range(rows.shape[0]):
         x = rows[i, 9]
         if sticks and not math.isnan(x):
@@ -198,8 +198,8 @@ def _slip(law: Any, own: Any, cycle: Any, zone: Any, x: float) -> float:
     if regime not in (Regime.MODERATE.value, Regime.LARGE.value):
         return math.nan
     of, there = slipping_in(cycle, regime), x - n if x > n else -m - x
-    left = slip_zone(law, own, cycle, -1.0, m, x, FINEST)
-    right = slip_zone(law, own, cycle, 1.0, n, x, FINEST)
+    left = slip_zone(law, own, cycle, -1.0, of.a - m, x, FINEST)
+    right = slip_zone(law, own, cycle, 1.0, of.c - n, x, FINEST)
     total = of.kappa * _slipped(left, m + n, there, x < -m)
     total += of.lamda * _slipped(right, m + n, there, x > n)
     return 2 / math.pi * abs(total)

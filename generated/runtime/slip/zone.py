@@ -10,9 +10,9 @@ from typing import Any
 
 from ..kernels import kernel, loop, opened
 from ..types import Regime
-from .bounded import slipping, slipping_in, zone_of
+from .bounded import RULE_RTOL, slipping, slipping_in, zone_of
 from .cycles import cycle_of, drives, ends_of, exists, is_steady, narrowest, resolved, slides
-from .growth import begins, grows, holds_at_first, sticks_all_over
+from .growth import begins, grown, holds_at_first, sticks_all_over
 
 
 @kernel
@@ -25,7 +25,7 @@ def _overtaken(law: Any, own: Any, cycle: Any, ends: Any) -> Any:
     again as soon as the left zone grows.  Forward slip as under moderate tension then comes in
     beyond n0 and overtakes the reversed slip.
     """
-    m, n, _ = zone_of(law, own, slipping(cycle, 1.0, 1.0), ends)
+    m, n, _ = zone_of(law, own, slipping(cycle, 1.0, 1.0), ends, RULE_RTOL)
     widest = cycle.c_1 + m if cycle.dsigma < 0 else cycle.a_1 + n
     if m <= cycle.a_1 and n <= cycle.c_1 and min(drives(cycle, widest)) >= 0:
         return m, n
@@ -60,14 +60,14 @@ def stick_zone(law: Any, own: Any, cycle: Any) -> Any:
     drive_left, drive_right = drives(cycle, cycle.a_1 + cycle.c_1)
     of = slipping(cycle, math.copysign(1.0, drive_left), math.copysign(1.0, drive_right))
     if begins(of, ends):
-        m, n, regime = zone_of(law, own, of, ends)
+        m, n, regime = zone_of(law, own, of, ends, RULE_RTOL)
+        if regime == Regime.LARGE and not _drives_on(of, ends, m, n):
+            regime = Regime.MIXED
+        if not is_steady(cycle) and (regime == Regime.LARGE or regime == Regime.MODERATE):
+            regime = grown(law, own, of, ends, m, n, regime)
         if regime == Regime.UNSOLVED:
-            return m, n, regime
-        if (
-            regime != Regime.MIXED
-            and (regime != Regime.LARGE or _drives_on(of, ends, m, n))
-            and grows(law, own, of, ends, m, n)
-        ):
+            return math.nan, math.nan, regime
+        if regime != Regime.MIXED:
             return m, n, regime
     m = n = math.nan
     if is_steady(cycle):
@@ -99,5 +99,5 @@ def each_zone_of_regime(law: Any, given: Any, own: Any, out: Any) -> None:
         if regime == Regime.FULL_STICK.value:
             m, n = narrowest(law, own[i], cycle, ends)
         elif regime == Regime.MODERATE.value or regime == Regime.LARGE.value:
-            m, n, _ = zone_of(law, own[i], slipping_in(cycle, regime), ends)
+            m, n, _ = zone_of(law, own[i], slipping_in(cycle, regime), ends, RULE_RTOL)
         out[i, 0], out[i, 1] = m, n
