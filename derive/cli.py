@@ -208,10 +208,10 @@ def list_() -> None:
 )
 @click.option(
     "--slip",
-    type=click.IntRange(1, 4),
+    type=click.IntRange(1, 2),
     metavar="ORDER",
     help="Print the series of the slip zones up to this order instead; kappa is the direction of "
-    "slip. Order 3 takes half a minute, order 4 much longer.",
+    "slip.",
 )
 @_limit
 def show(

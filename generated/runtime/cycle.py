@@ -157,15 +157,17 @@ def stick_zone(
 
 def _mixed_chunk(body: Body, names: tuple[str, ...], numbers: dict[str, Any]) -> StickZone:
     """Stick zones, also of mixed cycles."""
-    from .slip.mixed import with_mixed  # needs SciPy
-
     own = {name: numbers.pop(name) for name in names}
     f, E_star = numbers.pop("f"), numbers.pop("E_star")
     labels = ("a_1", "c_1", "a_2", "c_2", "dQ", "dsigma")
     cycle, unit = dict(zip(labels, numbers.values(), strict=True)), {"f": f, "E_star": 1.0}
     with np.errstate(all="ignore"):
         cycle["dQ"], cycle["dsigma"] = cycle["dQ"] / E_star, cycle["dsigma"] / E_star
-        zone = solved(each_stick_zone, body, cycle, unit, own, StickZone, ("regime",))
+        zone: StickZone = solved(each_stick_zone, body, cycle, unit, own, StickZone, ("regime",))
+        if not np.any(zone.regime == Regime.MIXED):
+            return zone
+        from .slip.mixed import with_mixed  # needs SciPy
+
         return with_mixed(body, own, cycle, f, zone)
 
 

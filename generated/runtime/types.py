@@ -137,7 +137,7 @@ class March(NamedTuple):
     left, right : ndarray of int
         Direction of slip at each edge: +1 forward, -1 reverse, 0 none or not known.
     regime : ndarray of int
-        A code of Regime; where a series gives m and n, it follows from the signs of K_T.
+        A code of Regime.
     """
 
     a: Array

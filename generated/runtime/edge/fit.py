@@ -211,6 +211,10 @@ def fit_stuck_shear(x: Values, dq: Values, edge: float, edge_error: float = 0.0)
     'K_T = 0.707'
     """
     places, values = _table(x, dq, "dq")
+    if np.ndim(edge) or np.ndim(edge_error):
+        raise TypeError(
+            f"edge and edge_error must be numbers; got {edge!r:.40}, {edge_error!r:.40}"
+        )
     edge, edge_error = float(real(edge, "edge")), float(real(edge_error, "edge_error"))
     if not (math.isfinite(edge) and 0 <= edge_error < math.inf):
         raise ValueError(

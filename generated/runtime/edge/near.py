@@ -233,6 +233,9 @@ def tractions(
     '0.5 and 1'
     """
 
+    if not isinstance(back, bool | np.bool_):
+        raise TypeError(f"back must be True or False, one value for all; got {back!r:.60}")
+
     def evaluate(s: Any, share: Any, mean: Any, *half_cycle: Any) -> Any:
         rising = HalfCycle(*half_cycle)
         share = np.where((share >= 0) & (share <= 1), share, np.nan)
@@ -290,15 +293,16 @@ def slip_range(
     '3.77e-07'
     """
 
-    def evaluate(s: Any, E_star: Any, *half_cycle: Any) -> Any:
+    def evaluate(s: Any, *values: Any) -> Any:
+        *half_cycle, E_star = values
         half = HalfCycle(*half_cycle)
         R_0, R_1 = half.stuck()
         u = np.maximum(half.zone() - s, 0.0)
         slip = R_0 * u**1.5 / 1.5 - R_1 * u**2.5 / 2.5
         return np.where(s >= np.maximum(half.da, 0.0), 2 / E_star * slip, np.nan)
 
-    given = {"s": s, "E_star": E_star} | _coefficients(order, K_N, L_N, K_T, L_T) | {"da": da}
-    return evaluated(evaluate, given, {"f": f})
+    given = {"s": s} | _coefficients(order, K_N, L_N, K_T, L_T) | {"da": da}
+    return evaluated(evaluate, given, {"f": f, "E_star": E_star})
 
 
 def _known_order(order: Any, L_N: Any, L_T: Any) -> int:

@@ -280,7 +280,7 @@ def _requests(edge: Any, free: str | None) -> dict[str, Edge]:
         if side not in SIDES:
             raise ValueError(f"side must be 'left' or 'right'; got {side!r:.40}")
         for name, value in one._asdict().items():
-            if name != "side" and value is not None:
+            if name != "side" and not (value is None and name in ("L_N", "L_T")):
                 number: Any = _number(value, name, 0.0 if name == "K_N" else -math.inf)
                 one = one._replace(**{name: number})
         requested[side] = one._replace(side=side)

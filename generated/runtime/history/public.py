@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from functools import cache, partial
 from typing import Any
 
@@ -155,7 +156,7 @@ def _each(
         f, E_star = full["f"][at][0], full["E_star"][at][0]
         parameters = {name: full[name][at][0] for name in own}
         loads = np.array([full[name][at] / E_star for name in _LOADS])
-        with _pools().limit(limits=1, user_api="blas"), np.errstate(all="ignore"):
+        with _one_thread(), np.errstate(all="ignore"):
             found = solve(at, body, parameters, f, loads, points, tol)
         for name, value in found._asdict().items():
             scale = E_star if name in ("q", "work", "work_error", "shear_error") else 1
@@ -169,10 +170,18 @@ def _each(
 
 @cache
 def _pools() -> Any:
-    """The threads of linear algebra; for matrices as small as these, one is faster than several."""
-    from threadpoolctl import ThreadpoolController
-
+    """The threads of linear algebra; None without threadpoolctl."""
+    try:
+        from threadpoolctl import ThreadpoolController
+    except ImportError:
+        return None
     return ThreadpoolController()
+
+
+def _one_thread() -> AbstractContextManager[Any]:
+    """Linear algebra on one thread, which is faster than several for matrices as small as these."""
+    pools = _pools()
+    return pools.limit(limits=1, user_api="blas") if pools else nullcontext()
 
 
 def _shown(cases: list[Any]) -> Iterable[Any]:

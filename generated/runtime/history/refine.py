@@ -105,7 +105,8 @@ def _shear_at(
     k = np.clip(np.searchsorted(mesh.ends, x) - 1, 0, mesh.middles.size - 1)
     sticks = np.clip(value_at(mesh, shear, x), -bound, bound)
     with np.errstate(invalid="ignore"):
-        return np.where(status[:, k] != 0, status[:, k] * bound, sticks)
+        q = np.where(status[:, k] != 0, status[:, k] * bound, sticks)
+        return np.where(np.isnan(x), np.nan, q)
 
 
 def _slip_at(mesh: Elements, x: Array, slip: Array) -> Array:
