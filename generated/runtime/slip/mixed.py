@@ -231,18 +231,26 @@ def _change(left: _Zone, right: _Zone, m: float, n: float, x: Array) -> Array:
 # ---------------------------------------------------------------- the three phases
 
 
-def _phase_1(of: _HalfCycle, gain: _Gain | None) -> tuple[float, float, float, Place]:
-    """m, n, lambda and dq when m + n = H."""
-    cuts = _cuts(of, gain)
+def _phase_1(of: _HalfCycle, begun: _State) -> tuple[float, float, float, Place]:
+    """m, n, lambda and dq when m + n = H; the search begins next to the last n."""
+    gain, cuts = begun.gain, _cuts(of, begun.gain)
 
     def zones(n: float) -> tuple[_Zone, _Zone]:
         left = _zone(-1.0, of.H - n, of.a, cuts, of.limit)
         return left, _zone(1.0, n, of.c, cuts, lambda x: -_remaining(of.limit, gain, x))
 
-    low, high = of.H - of.a + 1e-12 * of.H, of.c - 1e-12 * of.H
-    if not _sums(*zones(low), of.H)[1] < 0 < _sums(*zones(high), of.H)[1]:
+    def off(n: float) -> float:
+        return _sums(*zones(n), of.H)[1]
+
+    least, most = of.H - of.a + 1e-12 * of.H, of.c - 1e-12 * of.H
+    low, high, span = least, most, 1e-6 * of.H
+    while begun.n < math.inf and span < of.H:
+        low, high, span = max(least, begun.n - span), min(most, begun.n + span), 8 * span
+        if off(low) < 0 < off(high):
+            break
+    if not off(low) < 0 < off(high):
         return math.nan, math.nan, math.nan, of.limit
-    n = brentq(lambda n: _sums(*zones(n), of.H)[1], low, high, xtol=1e-14 * of.H, rtol=1e-14)
+    n = brentq(off, low, high, xtol=1e-14 * of.H, rtol=1e-14)
     found = zones(n)
     part = _sums(*found, of.H)[0] / (2 * of.dQ)
     return of.H - n, n, part, partial(_change, *found, of.H - n, n)
@@ -336,8 +344,12 @@ def _phase_3(
         L, R = _sums(*zones(left, right), stuck)
         return np.array([L - dQ - stuck * growth, R - dQ + stuck * growth]) / dQ
 
-    found = root(off, np.log(np.array(guess) / (of.H - sum(guess))), tol=1e-13)
-    if not np.max(np.abs(found.fun)) < 1e-9:
+    first = np.log(np.array(guess) / (of.H - sum(guess)))
+    for method in ("hybr", "lm"):
+        found = root(off, first, method=method, tol=1e-13)
+        if np.max(np.abs(found.fun)) < 1e-9:
+            break
+    else:
         return math.nan, math.nan, of.limit
     left, right = lengths(found.x)
     return left, right, partial(_change, *zones(left, right), m - left, of.c - right)
@@ -346,7 +358,7 @@ def _phase_3(
 def _half_cycle(of: _HalfCycle, middle: float, begun: _State, count: int) -> _State:
     """The zone and the gain at the end of a half-cycle, by series with `count` terms."""
     nothing, s = _State(gain=begun.gain), (chebpts1(count) + 1) / 2
-    m_1, n_1, part, dq_1 = _phase_1(of, begun.gain)
+    m_1, n_1, part, dq_1 = _phase_1(of, begun)
     if not (0 < part < 1 and -m_1 < middle < n_1 and m_1 <= of.a):
         return nothing
     legs, part = _phase_2(of, dq_1, m_1, part, middle, count)
@@ -386,7 +398,7 @@ def _is_sound(of: _HalfCycle, state: _State, count: int) -> bool:
 def _by_phases(of: _HalfCycle) -> tuple[float, float]:
     """m and n of a half-cycle; NaN unless it has the phases and the series converge."""
     width, state = of.a + of.c, _State()
-    m_1, n_1, _, _ = _phase_1(of, None)
+    m_1, n_1, _, _ = _phase_1(of, state)
     middle = n_1 - (m_1 + n_1) / 4
     for count in TERMS:
         coarser, changed = state, math.inf
