@@ -35,7 +35,10 @@ from sympy import (
 )
 from sympy.core.relational import Relational
 
-from derive.errors import BadUnit, DimensionMismatch
+from derive.errors import BadText, BadUnit, DimensionMismatch
+from derive.reading.tree import parse
+from derive.reading.words import Function as Known
+from derive.reading.words import Words
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,7 @@ _UNITS = {
     "N": Dimension(pressure=S.One, length=Integer(2)),
     "rad": NUMBER,
 }
+_WORDS = Words({"sqrt": Known("sqrt")}, deepest=20)
 
 
 def parse_unit(text: str) -> Dimension:
@@ -90,10 +94,9 @@ def parse_unit(text: str) -> Dimension:
     if text.strip() in ("-", "1", ""):
         return NUMBER
     try:
-        tree = ast.parse(text, mode="eval").body
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise BadUnit(text, "it is not a product of powers") from None
-    return _unit(tree, text)
+        return _unit(parse(text, _WORDS).root, text)
+    except BadText as error:
+        raise BadUnit(text, error.why) from None
 
 
 def _unit(node: ast.expr, text: str) -> Dimension:

@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 
 from derive import symbols as ours
 from derive.mathml import mathml
-from derive.paper.formula import proper
+from derive.reading.improper import proper
 from derive.theory.moments import full_moment, slope_moment
 from generated import hertz
 from tests.derive.bodies import of_library

@@ -23,7 +23,6 @@
     spellings      equation in LaTeX         its symbols, and proposals for their meanings
     draft          LaTeX file                a claims file for the user to complete
     accept         claims file               the same file with the readings that a user accepted
-    formula        text from the user        an equation that holds only permitted names and calls
     latex          LaTeX from the user       an equation as text, if only one reading is possible
     dimensions     equation, known units     the term whose units do not fit
     context        body, symbols, equation   the equation with its calls replaced by formulas
@@ -38,6 +37,8 @@
     claim_table    table [[claims]]          a claim, which is unchecked if an entry is wrong
     userfile       claims file in TOML       its claims
     andresen2020/                            claims files of the paper that introduced the method
+
+Text from the user, such as an equation, is read by derive.reading.
 
 Only the command line imports this package.  Verdicts are always computed.  The entry `expected`
 of a claim is compared with the computed verdict, and affects only the exit status.

@@ -14,6 +14,8 @@ from mpmath import mpf
 from sympy import Expr, Rational, S, Symbol
 from sympy.logic.boolalg import Boolean
 
+from derive.reading.relation import Relation
+
 Meaning = Mapping[Symbol, Expr]
 Point = dict[Symbol, mpf]
 
@@ -27,43 +29,6 @@ class Verdict(StrEnum):
     CONVENTION = "convention"
     FAILS = "fails"
     UNCHECKED = "unchecked"
-
-
-class Relation(StrEnum):
-    """The relation between the two sides.
-
-    LIKE is judged like an equation, by the leading terms.
-    """
-
-    EQUAL = "="
-    LIKE = "~"
-    BELOW = "<"
-    AT_MOST = "<="
-    ABOVE = ">"
-    AT_LEAST = ">="
-
-    @property
-    def is_strict(self) -> bool:
-        """Whether the relation is a strict inequality."""
-        return self in (Relation.BELOW, Relation.ABOVE)
-
-    @property
-    def is_ordered(self) -> bool:
-        """Whether the relation is an inequality."""
-        return self in _TURNED
-
-    @property
-    def turned(self) -> "Relation":
-        """The opposite inequality, with the same strictness."""
-        return _TURNED[self]
-
-
-_TURNED = {
-    Relation.BELOW: Relation.ABOVE,
-    Relation.ABOVE: Relation.BELOW,
-    Relation.AT_MOST: Relation.AT_LEAST,
-    Relation.AT_LEAST: Relation.AT_MOST,
-}
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,10 @@ from derive.errors import BadFormula
 from derive.paper.claim import Range, Rounded, Verdict
 from derive.paper.context import Context, Meant, Put, calls_in, integrals
 from derive.paper.entries import Entries
-from derive.paper.formula import IMPROPER, Names, approach, condition, equation, rounded_in
 from derive.paper.meanings import names_of
 from derive.paper.variables import is_bound
+from derive.reading.formula import Names, approach, condition, equation, rounded_in
+from derive.reading.improper import IMPROPER
 
 
 def expected(claim: Entries) -> Verdict | None:

@@ -14,7 +14,7 @@ from sympy import Expr, Symbol
 
 from derive.errors import NotAccepted, UserError
 from derive.paper import claim_options
-from derive.paper.claim import SIGNED, Bound, Claim, Convention, Meaning, Range, Relation
+from derive.paper.claim import SIGNED, Bound, Claim, Convention, Meaning, Range
 from derive.paper.context import (
     PLACES,
     Context,
@@ -27,11 +27,12 @@ from derive.paper.context import (
     with_real_bound,
 )
 from derive.paper.entries import Entries, TimeLimit
-from derive.paper.formula import Names, UnknownName, equation, unknown
 from derive.paper.meanings import Meanings, changed, demand_symbol, names_of
 from derive.paper.mistakes import reason
 from derive.paper.printed import Reading, may_be_rough, not_accepted, printed, waiting
 from derive.paper.variables import Variables
+from derive.reading.formula import Names, UnknownName, equation, unknown
+from derive.reading.relation import Relation
 
 OF_A_CLAIM = (
     frozenset(("label", "place", "says", "printed", "latex", "understood", "expected", "symbols"))

@@ -18,7 +18,7 @@ from derive.errors import UserError
 from derive.paper.bodies import Body, placed
 from derive.paper.claim import Meaning
 from derive.paper.dimensions import Call, Units, ordinary
-from derive.paper.formula import FROM_POLE, IMPROPER, PrincipalValue, ToInfinity, proper
+from derive.reading.improper import FROM_POLE, IMPROPER, PrincipalValue, ToInfinity, proper
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, e, f, x
 from derive.units import Dimension, parse_unit

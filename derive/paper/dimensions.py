@@ -30,7 +30,7 @@ from sympy import (
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from derive.paper.formula import IMPROPER
+from derive.reading.improper import IMPROPER
 from derive.units import NUMBER, Dimension
 
 Call = tuple[tuple[Dimension, ...], Dimension]

@@ -16,15 +16,6 @@ from derive.errors import BadClaimsFile, BadFormula
 from derive.files import demand_writable, write_new
 from derive.limit import LimitReached, within
 from derive.paper.displays import LABEL, Display, displays, rows_of
-from derive.paper.formula import (
-    Names,
-    UnknownName,
-    approach,
-    condition,
-    equation,
-    may_be_rounded,
-    unknown,
-)
 from derive.paper.latex import Latex
 from derive.paper.lines import quoted
 from derive.paper.spellings import (
@@ -36,6 +27,15 @@ from derive.paper.spellings import (
     words_for,
 )
 from derive.paper.statements import Statement, remarks, statements
+from derive.reading.formula import (
+    Names,
+    UnknownName,
+    approach,
+    condition,
+    equation,
+    may_be_rounded,
+    unknown,
+)
 
 _SECONDS = 10.0
 """The time limit for reading one equation, in seconds."""

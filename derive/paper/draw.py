@@ -20,8 +20,9 @@ from sympy import Expr, Integral, Symbol, lambdify
 from sympy.logic.boolalg import Boolean
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
-from derive.paper.claim import SCALE, Claim, Point, Range, Relation
+from derive.paper.claim import SCALE, Claim, Point, Range
 from derive.paper.kinks import Switch, peaked, switches
+from derive.reading.relation import Relation
 
 POINTS = 24
 """Number of points of moderate size at which both sides are compared."""

@@ -6,7 +6,7 @@ numbers, and a few commands; anything else is refused, with its position.  A dec
 never a function.  An implied product gets a multiplication sign, unless it could be part of a
 denominator after a slash.  Invisible braces may hold at most one factor.  The end of the argument
 of a function, of a sum or of an integral must be clear from what is printed.  The result is text
-for derive.paper.formula, term by term in the printed order, so that a user can compare the two.
+for derive.reading.formula, term by term in the printed order, so that a user can compare the two.
 The claims file must accept this text.
 """
 
@@ -17,8 +17,8 @@ from functools import cached_property
 from typing import NoReturn
 
 from derive.errors import BadFormula
-from derive.paper.claim import Relation
 from derive.paper.spellings import GREEK, letter_name
+from derive.reading.relation import Relation
 
 _LONGEST = 2000
 """The largest number of characters in an equation."""

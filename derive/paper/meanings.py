@@ -15,10 +15,10 @@ from derive.paper.claim import Meaning
 from derive.paper.context import PLACES, Context, Meant, Put, free, with_real_bound
 from derive.paper.dimensions import Units
 from derive.paper.entries import Entries, Place, TimeLimit
-from derive.paper.formula import Names, equation, formula, usable
 from derive.paper.lines import line_of
 from derive.paper.mistakes import Collected
 from derive.paper.variables import Variables, demand_name
+from derive.reading.formula import Names, equation, formula, usable
 from derive.symbols import E_star, f
 
 _OF_A_SYMBOL = frozenset({"is", "meaning", "proposal", "unit"})

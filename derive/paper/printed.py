@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 
 from derive.errors import BadFormula, NotAccepted
 from derive.paper.entries import Entries
-from derive.paper.formula import Names, equation, may_be_rounded
 from derive.paper.latex import Latex
 from derive.paper.mistakes import reason
 from derive.paper.statements import statements
+from derive.reading.formula import Names, equation, may_be_rounded
 
 _BESIDE = ("as", "order", "require", "given")
 """The entries that are shown with a reading, because the verdict depends on them."""

@@ -12,9 +12,10 @@ import mpmath
 from sympy import Expr, Symbol
 
 from derive.notation import latex_of, text_of
-from derive.paper.claim import Claim, Paper, Relation, Verdict
+from derive.paper.claim import Claim, Paper, Verdict
 from derive.paper.repair import in_words
 from derive.paper.verdict import Finding, Repair
+from derive.reading.relation import Relation
 
 _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
 

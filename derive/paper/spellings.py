@@ -10,7 +10,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from derive.paper.formula import usable
+from derive.reading.formula import usable
 
 _TOKEN = re.compile(
     r"\\(?:begin|end)\s*\{[a-z]+\}|\\text\{[^{}]*\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|\S"

@@ -18,11 +18,11 @@ from derive.paper.bodies import Body, of_library
 from derive.paper.claim import SCALE, Range
 from derive.paper.context import PLACES, Context
 from derive.paper.entries import Entries, Place
-from derive.paper.formula import usable
 from derive.paper.geometry_file import profile_of
 from derive.paper.lines import line_of
 from derive.paper.mistakes import Collected
 from derive.parallel import Report, in_processes
+from derive.reading.formula import usable
 from derive.symbols import E_star, f
 from derive.units import Dimension, parse_unit
 from derive.writing.apart import BOUNDS

@@ -28,7 +28,6 @@ from derive.paper.claim import (
     Meaning,
     Point,
     Range,
-    Relation,
     Rounded,
     Verdict,
 )
@@ -47,6 +46,7 @@ from derive.paper.repair import KINDS, WHOLE, Edit, edits, in_words, plain_edits
 from derive.paper.tending import Approach
 from derive.paper.values import Care, Undecided, Undefined, evaluated
 from derive.paper.zero import constant, vanishes, vanishes_at
+from derive.reading.relation import Relation
 
 Result = TypeVar("Result")
 

@@ -31,7 +31,7 @@ from sympy import (
 
 from derive.paper.claim import Range
 from derive.paper.domain import is_continuous
-from derive.writing.limits import terms
+from derive.reading.limits import terms
 
 _LONGEST = 400
 """The largest number of operations in an expression that is examined."""

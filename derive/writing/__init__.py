@@ -2,17 +2,12 @@
 
     module       input                       output
     ----------   -------------------------   ---------------------------------------------
-    vocabulary                               the functions and names that a text may contain
-    tokens       text                        tokens, each with its column
-    grammar      tokens                      a tree
-    meaning      tree                        a SymPy expression, no larger than `limits`
     lengths      SymPy expression            the unit of each parameter, because g is a length
     python       tree                        the same formula as exact Python
-    draft        all of these                a Geometry and the text of its file
+    draft        all of these, and reading   a Geometry and the text of its file
     apart        the input of a user         the same, made in a process with limits
     options      NAME=TEXT                   the text given for each parameter
     target       text of a file, a path      the file, written completely or not at all
 
-If a formula is rejected, the message (`derive.errors.BadText`) shows it with a caret under the
-error.
+The text is read by derive.reading.
 """

@@ -15,12 +15,12 @@ from derive.codegen.module import formatted
 from derive.errors import BadName, BadOption, BadProfile, BadUnit, UserError
 from derive.geometry import Geometry, parameter, without_x
 from derive.library import is_in_library
+from derive.reading.profile import parameters, read, tree_of, value
+from derive.reading.tree import Tree
+from derive.reading.words import refusal
 from derive.symbols import RESERVED, x
-from derive.writing.grammar import Name, Node, parse
 from derive.writing.lengths import units
-from derive.writing.meaning import Meaning, names, read, walk
-from derive.writing.python import Python
-from derive.writing.vocabulary import refusal
+from derive.writing.python import code_of
 
 NEUTRAL = "parameter of the profile"
 """The meaning of a parameter for which none is given."""
@@ -84,85 +84,91 @@ def draft(wanted: Wanted) -> Draft:
     geometry = Geometry("cylinder", g=x**2 / (2 * R))
     <BLANKLINE>
     """
-    tree = parse(wanted.profile)
+    tree = tree_of(wanted.profile)
+    names = tuple(parameters(tree))
     for option, given in (("--unit", wanted.units), ("--meaning", wanted.meanings)):
-        _demand_known(option, given, tuple(names(tree)))
+        _demand_known(option, given, names)
     for unit in wanted.units.values():
         _demand_plain(unit)
-    if "x" not in (node.name for node in walk(tree) if isinstance(node, Name)):
-        raise without_x(wanted.name, names(tree))
-    if (count := len(names(tree))) > _MOST_PARAMETERS:
+    if "x" not in tree.names():
+        raise without_x(wanted.name, names)
+    if (count := len(names)) > _MOST_PARAMETERS:
         why = f"has {count} parameters, and at most {_MOST_PARAMETERS} are allowed"
         raise BadProfile(wanted.name, why, "replace some of them by numbers")
-    parameters = _parameters(wanted, tree)
-    return Draft(_geometry(wanted, tree, parameters), _text(wanted, tree, parameters))
+    described = _described(wanted, tree)
+    return Draft(_geometry(wanted, tree, described), _text(wanted, tree, described))
 
 
-def _demand_known(option: str, given: Mapping[str, str], parameters: Sequence[str]) -> None:
+def _demand_known(option: str, given: Mapping[str, str], names: Sequence[str]) -> None:
     """Refuse an option for a name that is not a parameter of g(x)."""
     for name, text in given.items():
-        if name not in parameters:
-            raise BadOption(option, f"{name}={text}", _absent(name, parameters))
+        if name not in names:
+            raise BadOption(option, f"{name}={text}", _absent(name, names))
 
 
-def _absent(name: str, parameters: Sequence[str]) -> str:
-    known = f"its parameters are {', '.join(parameters)}" if parameters else "it has no parameters"
+def _absent(name: str, names: Sequence[str]) -> str:
+    known = f"its parameters are {', '.join(names)}" if names else "it has no parameters"
     return f"g(x) has no parameter {name!r}; {known}"
 
 
 def _demand_plain(unit: str) -> None:
-    """Refuse a unit that should not be passed to Python's parser."""
+    """Refuse a unit that does not fit on a line of the file."""
     if not unit.isprintable() or len(unit) > _LONGEST_UNIT:
         why = f"it has more than {_LONGEST_UNIT} characters, or characters that cannot be printed"
         raise BadUnit(unit[:_LONGEST_UNIT], why)
 
 
-Parameters = Mapping[str, tuple[str, str]]
+_Described = Mapping[str, tuple[str, str]]
 """Meaning and unit of each parameter, in the order of the text."""
 
 
-def _parameters(wanted: Wanted, tree: Node) -> Parameters:
+def _described(wanted: Wanted, tree: Tree) -> _Described:
     """The meaning and unit of each parameter; a parameter without influence is refused."""
     g = read(wanted.profile)
     units_of = units(g, wanted.units)
-    for name, column in names(tree).items():
+    names = parameters(tree)
+    for name, column in names.items():
         if name not in units_of:
             raise refusal(wanted.profile, column, f"{name} cancels out of g(x)", "leave it out")
-    return {name: (wanted.meanings.get(name, NEUTRAL), units_of[name]) for name in names(tree)}
+    return {name: (wanted.meanings.get(name, NEUTRAL), units_of[name]) for name in names}
 
 
-def _geometry(wanted: Wanted, tree: Node, parameters: Parameters) -> Geometry:
+def _geometry(wanted: Wanted, tree: Tree, described: _Described) -> Geometry:
     symbols = {
-        name: parameter(name, meaning, unit=unit) for name, (meaning, unit) in parameters.items()
+        name: parameter(name, meaning, unit=unit) for name, (meaning, unit) in described.items()
     }
     try:
-        return Geometry(wanted.name, g=Meaning(wanted.profile, symbols).value(tree))
+        return Geometry(wanted.name, g=value(tree, symbols))
     except UserError:
         raise
     except Exception as error:
-        raise BadProfile(
-            wanted.name,
-            "has too many terms" if isinstance(error, RecursionError) else "cannot be evaluated",
-            "write it as polynomials in x on intervals, with Abs, Piecewise, Max, ...",
-        ) from error
+        why = "has too many terms" if isinstance(error, RecursionError) else "cannot be evaluated"
+        raise _too_large(wanted.name, why) from error
 
 
-def _text(wanted: Wanted, tree: Node, parameters: Parameters) -> str:
+def _too_large(name: str, why: str) -> BadProfile:
+    remedy = "write it as polynomials in x on intervals, with Abs, Piecewise, Max, ..."
+    return BadProfile(name, why, remedy)
+
+
+def _text(wanted: Wanted, tree: Tree, described: _Described) -> str:
     """The text of the file, in the form of the files of the library."""
-    python = Python()
-    profile = python.write(tree).text
-    imports = ", ".join(sorted(python.imports, key=lambda name: (name.islower(), name)))
+    try:
+        profile, imported = code_of(tree)
+    except RecursionError as error:
+        raise _too_large(wanted.name, "has too many terms") from error
+    imports = ", ".join(sorted(imported, key=lambda name: (name.islower(), name)))
     lines = [
         _docstring(wanted.title.strip() or _title(wanted)),
         "",
         *([f"from sympy import {imports}", ""] if imports else []),
         "from derive import Geometry, parameter, x"
-        if parameters
+        if described
         else "from derive import Geometry, x",
         "",
         *(
             f"{name} = parameter({name!r}, {meaning!r}, unit={unit!r})"
-            for name, (meaning, unit) in parameters.items()
+            for name, (meaning, unit) in described.items()
         ),
         f"geometry = Geometry({wanted.name!r}, g={profile})",
     ]

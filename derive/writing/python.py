@@ -1,137 +1,98 @@
-"""Writes the tree of a formula as exact Python code for SymPy, with its terms in the same order."""
+"""Write the tree of g(x) as exact Python code for SymPy, with its terms in the same order."""
 
-from dataclasses import dataclass, field
+import ast
+from collections.abc import Sequence
+from functools import reduce
+from itertools import pairwise
 
-from derive.writing.grammar import (
-    Call,
-    Chain,
-    Comparison,
-    Conjunction,
-    Constant,
-    Disjunction,
-    Name,
-    Negation,
-    Negative,
-    Node,
-    Number,
-    Pair,
-    Power,
-    Product,
-    Sum,
-)
-from derive.writing.meaning import MIRRORED, is_constant
-from derive.writing.vocabulary import FUNCTIONS, TRUE
-
-_COMPARISON, _OR, _AND, _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(8)
-"""The precedence levels of Python, in which & and | bind more tightly than a comparison."""
+from derive.reading.tree import Tree
+from derive.reading.value import MIRRORED
+from derive.reading.words import FUNCTIONS, PI
 
 
-@dataclass(frozen=True)
-class Code:
-    """A piece of Python code.
+def code_of(tree: Tree) -> tuple[str, set[str]]:
+    """The Python code of g(x), and the names that it imports from SymPy.
 
-    level: the precedence level of its outermost operator
-    integer: whether its value is a Python int, whose quotients would be inexact
+    Raises RecursionError if the formula has too many terms.
+    """
+    exact = _Exact(tree)
+    return ast.unparse(exact.visit(tree.root)), exact.imports
+
+
+class _Exact(ast.NodeTransformer):
+    """Replace quotients of integers and decimal numbers by exact ones, and `and` by &.
+
+    integers: the nodes whose value is a Python int, whose quotients would be inexact
     """
 
-    text: str
-    level: int
-    integer: bool = False
+    def __init__(self, tree: Tree) -> None:
+        self.tree = tree
+        self.imports = set[str]()
+        self.integers = set[ast.expr]()
 
-    def at(self, level: int) -> str:
-        """The text, in parentheses unless it binds at least as tightly as `level`."""
-        return self.text if self.level >= level else f"({self.text})"
+    def visit_Constant(self, node: ast.Constant) -> ast.expr:
+        """A number as an int or a Rational."""
+        if node.value is True:
+            return node
+        value = self.tree.number(node)
+        if value.denominator == 1:
+            return self._integer(ast.Constant(value.numerator))
+        return self._rational(ast.Constant(value.numerator), ast.Constant(value.denominator))
 
+    def visit_Name(self, node: ast.Name) -> ast.Name:
+        """A name; pi is imported."""
+        return self._imported(PI) if node.id == PI else node
 
-@dataclass
-class Python:
-    """Writes formulas, and collects the names that they import from SymPy."""
+    def visit_Call(self, node: ast.Call) -> ast.Call:
+        """A function of SymPy."""
+        name = FUNCTIONS[ast.unparse(node.func)].name
+        return ast.Call(self._imported(name), [self.visit(each) for each in node.args], [])
 
-    imports: set[str] = field(default_factory=set)
+    def visit_UnaryOp(self, node: ast.UnaryOp) -> ast.expr:
+        """A sign, or ~ for `not`."""
+        operand = self.visit(node.operand)
+        if isinstance(node.op, ast.Not):
+            return ast.UnaryOp(ast.Invert(), operand)
+        negative = ast.UnaryOp(node.op, operand)
+        return self._integer(negative) if operand in self.integers else negative
 
-    def write(self, node: Node) -> Code:
-        """The Python code of a node."""
-        match node:
-            case Number():
-                return self._number(node)
-            case Name():
-                return Code(node.name, _ATOM)
-            case Constant():
-                return Code(node.name if node.name == TRUE else self._imported(node.name), _ATOM)
-            case Negative():
-                operand = self.write(node.operand)
-                return Code(f"-{operand.at(_SIGN)}", _SIGN, operand.integer)
-            case Negation():
-                return Code(f"~{self.write(node.operand).at(_SIGN)}", _SIGN)
-            case Sum():
-                return self._left_to_right(node, _SUM)
-            case Product():
-                return self._left_to_right(node, _PRODUCT)
-            case Power():
-                return self._power(node)
-            case Comparison():
-                return self._comparison(node)
-            case Conjunction():
-                return self._joined(node, " & ", _AND)
-            case Disjunction():
-                return self._joined(node, " | ", _OR)
-            case Pair():
-                return Code(f"({self._list(node.value, node.condition)})", _ATOM)
-            case Call():
-                function = self._imported(FUNCTIONS[node.function].name)
-                return Code(f"{function}({self._list(*node.arguments)})", _ATOM)
-        raise AssertionError(f"no Python code is known for {type(node).__name__}")
+    def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
+        """An operation; a quotient or power of integers is a Rational."""
+        left, right = self.visit(node.left), self.visit(node.right)
+        integer = {left, right} <= self.integers
+        if integer and isinstance(node.op, ast.Div):
+            return self._rational(left, right)
+        if integer and isinstance(node.op, ast.Pow) and not isinstance(right, ast.Constant):
+            left, integer = self._rational(left), False
+        done = ast.BinOp(left, node.op, right)
+        return self._integer(done) if integer else done
 
-    def _number(self, node: Number) -> Code:
-        if node.value.denominator == 1:
-            return Code(str(node.value), _ATOM, integer=True)
-        return self._rational(str(node.value.numerator), str(node.value.denominator))
-
-    def _rational(self, *parts: str) -> Code:
-        return Code(f"{self._imported('Rational')}({', '.join(parts)})", _ATOM)
-
-    def _imported(self, name: str) -> str:
-        self.imports.add(name)
-        return name
-
-    def _list(self, *nodes: Node) -> str:
-        return ", ".join(self.write(node).text for node in nodes)
-
-    def _left_to_right(self, node: Chain, level: int) -> Code:
-        done = self.write(node.operands[0])
-        for sign, operand in zip(node.operators, node.operands[1:], strict=True):
-            following = self.write(operand)
-            integer = done.integer and following.integer
-            if integer and sign.text == "/":
-                done = self._rational(done.text, following.text)
-            else:
-                text = f"{done.at(level)} {sign.text} {following.at(level + 1)}"
-                done = Code(text, level, integer)
-        return done
-
-    def _power(self, node: Power) -> Code:
-        base, exponent = self.write(node.base), self.write(node.exponent)
-        integer = base.integer and exponent.integer
-        if integer and not isinstance(node.exponent, Number):
-            base, integer = self._rational(base.text), False
-        return Code(f"{base.at(_ATOM)}**{exponent.at(_SIGN)}", _POWER, integer)
-
-    def _comparison(self, node: Comparison) -> Code:
+    def visit_Compare(self, node: ast.Compare) -> ast.expr:
+        """Comparisons joined by &, with x or a parameter on the left."""
         parts = []
-        for sign, left, right in zip(
-            node.operators, node.operands[:-1], node.operands[1:], strict=True
-        ):
-            order, sides = sign.text, (left, right)
-            if is_constant(left):
-                order, sides = MIRRORED[order], (right, left)
-            first, second = (self.write(side).at(_SUM) for side in sides)
-            parts.append(Code(f"{first} {order} {second}", _COMPARISON))
-        return self._all(parts, " & ", _AND)
+        sides = pairwise((node.left, *node.comparators))
+        for order, (left, right) in zip(node.ops, sides, strict=True):
+            if not self.tree.names(left):
+                order, left, right = MIRRORED[type(order)](), right, left
+            parts.append(ast.Compare(self.visit(left), [order], [self.visit(right)]))
+        return _joined(ast.BitAnd(), parts)
 
-    def _joined(self, node: Chain, sign: str, level: int) -> Code:
-        return self._all([self.write(part) for part in node.operands], sign, level)
+    def visit_BoolOp(self, node: ast.BoolOp) -> ast.expr:
+        """Conditions joined by & or |."""
+        sign = ast.BitAnd() if isinstance(node.op, ast.And) else ast.BitOr()
+        return _joined(sign, [self.visit(part) for part in node.values])
 
-    def _all(self, parts: list[Code], sign: str, level: int) -> Code:
-        if len(parts) == 1:
-            return parts[0]
-        return Code(sign.join(part.at(level + 1) for part in parts), level)
+    def _integer(self, node: ast.expr) -> ast.expr:
+        self.integers.add(node)
+        return node
+
+    def _rational(self, *parts: ast.expr) -> ast.Call:
+        return ast.Call(self._imported("Rational"), [*parts], [])
+
+    def _imported(self, name: str) -> ast.Name:
+        self.imports.add(name)
+        return ast.Name(name)
+
+
+def _joined(sign: ast.operator, parts: Sequence[ast.expr]) -> ast.expr:
+    return reduce(lambda left, right: ast.BinOp(left, sign, right), parts)

@@ -14,9 +14,9 @@ from ruff import find_ruff_bin
 from derive.cli import main
 from derive.errors import BadProfile, BadTarget, OpenUnits
 from derive.library import load_geometry
+from derive.reading.profile import read
 from derive.writing.draft import NEUTRAL, Wanted, draft
 from derive.writing.lengths import units
-from derive.writing.meaning import read
 from derive.writing.target import place, write_new
 from tests.derive.bodies import BODIES, geometry
 

@@ -11,9 +11,9 @@ from sympy import Symbol, symbols
 from derive.paper.claim import Claim, Verdict
 from derive.paper.diagnosis import named
 from derive.paper.dimensions import Units
-from derive.paper.formula import Names, equation
 from derive.paper.report import explanation, summary
 from derive.paper.verdict import Finding, Judged
+from derive.reading.formula import Names, equation
 from derive.shelf import MARK
 from derive.units import parse_unit
 from tests.paper import asking

@@ -8,13 +8,13 @@ import pytest
 from derive.errors import BadFormula
 from derive.paper.displays import displays
 from derive.paper.draft import Draft, draft
-from derive.paper.formula import Names, equation, unknown
 from derive.paper.latex import Latex
 from derive.paper.lines import heads, with_lines
 from derive.paper.spellings import proposal, spellings
 from derive.paper.statements import statements
 from derive.paper.userfile import read_claims
 from derive.paper.verdict import check
+from derive.reading.formula import Names, equation, unknown
 
 
 def drafted(folder: Path, body: str) -> Draft:

@@ -10,9 +10,9 @@ from sympy import Integral, Symbol, elliptic_k, symbols
 
 from derive.errors import BadFormula
 from derive.paper.claim_table import OF_A_CLAIM
-from derive.paper.formula import Names, equation, formula
 from derive.paper.latex import Latex
 from derive.paper.userfile import KEYS, open_readings
+from derive.reading.formula import Names, equation, formula
 from tests.paper.asking import run, told, written
 
 ROOT = Path(__file__).parents[2]

@@ -1,4 +1,4 @@
-"""The functions and names that the text of g(x) may contain; all others are refused."""
+"""The functions and names that a text may contain; all others are refused."""
 
 import keyword
 from collections.abc import Callable, Mapping
@@ -26,6 +26,15 @@ class Function:
         """The function in SymPy."""
         return getattr(sympy, self.name)
 
+    @property
+    def number(self) -> str:
+        """The number of arguments, in words."""
+        if self.most == 1:
+            return "one argument"
+        if self.most in (self.least, MANY):
+            return f"{'at most ' * (self.most == MANY)}{self.most} arguments"
+        return f"{self.least} to {self.most}"
+
 
 _OF_ONE = (
     *("Abs", "sqrt", "sign", "Heaviside", "exp", "log", "sin", "cos", "tan", "asin", "acos"),
@@ -40,35 +49,29 @@ FUNCTIONS = {name: Function(name) for name in _OF_ONE} | {
     "min": Function("Min", MANY),
     "Piecewise": Function("Piecewise", MANY),
 }
+"""The functions of g(x)."""
+
+PI, TRUE = "pi", "True"
+LOGICAL = {"&": "and", "|": "or", "~": "not"}
+"""The signs of the logical operators, and the equivalent words."""
+
+KEYWORDS = frozenset(keyword.kwlist) - {TRUE, *LOGICAL.values()}
+"""Keywords of Python that are not allowed in a formula."""
 
 
 @dataclass(frozen=True)
 class Words:
     """The names that a text may contain.
 
-    functions      the functions that may be called
-    of_parameters  whether all other names must be valid names of parameters of a geometry
-    deepest        the largest number of nested parentheses, calls and powers of powers
+    functions  the functions that may be called
+    deepest    the largest number of nested parentheses, calls and powers of powers
+    mistake    why any other name is refused, and what to do instead; None if it is allowed
     """
 
     functions: Mapping[str, Function]
-    of_parameters: bool
     deepest: int
+    mistake: Callable[[str], tuple[str, str] | None] = lambda name: None
 
-
-OF_PROFILES = Words(FUNCTIONS, of_parameters=True, deepest=30)
-"""The names that g(x) may contain."""
-
-PI = "pi"
-TRUE = "True"
-LOGICAL = {"and": "&", "or": "|", "not": "~"}
-"""The logical operators as words, and the equivalent signs."""
-
-KEYWORDS = frozenset(keyword.kwlist) - {TRUE, *LOGICAL}
-"""Keywords of Python that are not allowed in a formula."""
-
-OF_THE_FILE = frozenset({"Geometry", "geometry", "parameter", "Rational"})
-"""Names that the geometry file itself uses."""
 
 ALLOWED = (
     "x, names of parameters, numbers, pi, + - * / ** ( ); Abs sqrt sign Max Min Heaviside exp log "

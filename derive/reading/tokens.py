@@ -1,11 +1,11 @@
-"""Splits the text of g(x) into numbers, names and operators, one at a time."""
+"""Splits a text into numbers, names and operators, one at a time."""
 
 import re
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from derive.writing.vocabulary import refusal
+from derive.reading.words import refusal
 
 LONGEST = 2000
 """The largest number of characters of a text."""

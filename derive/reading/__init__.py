@@ -1,0 +1,17 @@
+"""Read what a user typed: g(x), and the formulas of a claims file.  No text is ever executed.
+
+    module     input                        output
+    --------   --------------------------   -------------------------------------------------
+    words                                   the functions that may be called
+    tokens     text                         tokens, each with its column
+    tree       tokens                       a tree of Python's own parser, of permitted nodes only
+    limits     SymPy expression             whether it is too large, not finite or not real
+    value      tree                         a SymPy expression within these limits
+    profile    g(x) as text                 its expression, with a symbol for each parameter
+    formula    formula of a claims file     an equation, a condition or a limit
+    improper                                principal values, and integrals to infinity
+    relation                                the relation between the two sides of an equation
+
+If a text is refused, the message (`derive.errors.BadText` or `BadFormula`) shows it with a caret
+under the mistake.
+"""

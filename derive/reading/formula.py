@@ -1,0 +1,282 @@
+"""Read an equation or a condition that a user typed, without executing any of it.
+
+The grammar is that of g(x) in derive.reading.tree.  The names must be declared in the claims file.
+In addition to the functions of g(x), the following are available: elliptic integrals of the
+parameter m = k**2, gamma_function, the formulas on the body's formula sheet, which remain calls
+until they are substituted, and
+
+    integral(f, s, low, high)     pv(f, s, low, high)     sum(f, k, low, high)
+    diff(f, x)    diff(f, x, 2)   limit(f, x, end)
+
+The variable of an integral, a sum or a limit need not be declared; it is then known only inside
+that call.  Their ends may be `oo` or `-oo`.
+"""
+
+import ast
+import operator
+import re
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from sympy import Derivative, Expr, Integral, Limit, S, Sum, Symbol, oo
+from sympy import Function as SymPyFunction
+from sympy.logic.boolalg import Boolean
+
+from derive.errors import BadFormula, BadText
+from derive.reading.improper import PrincipalValue, ToInfinity
+from derive.reading.limits import fault
+from derive.reading.relation import Relation
+from derive.reading.tokens import LONGEST
+from derive.reading.tree import Tree, parse
+from derive.reading.value import Meaning
+from derive.reading.words import FUNCTIONS, KEYWORDS, LOGICAL, PI, Function, Words
+
+_DEEPEST = 40
+_MOST_TERMS = 200
+"""The largest number of terms in a finite sum."""
+
+_FUNCTIONS = {
+    **FUNCTIONS,
+    "elliptic_k": Function("elliptic_k"),
+    "elliptic_e": Function("elliptic_e"),
+    "elliptic_pi": Function("elliptic_pi", 2, 2),
+    "gamma_function": Function("gamma"),
+}
+_ALONG = {
+    "integral": Function("", 4, 4),
+    "pv": Function("", 4, 4),
+    "sum": Function("", 4, 4),
+    "diff": Function("", 3, 2),
+    "limit": Function("", 3, 3),
+}
+"""Functions that act along a variable, which is their second argument."""
+_BINDING = _ALONG.keys() - {"diff"}
+"""Functions whose variable need not be declared."""
+
+_ROUNDED_FROM = 3
+"""A decimal number with at least this many digits may be a rounded one."""
+_RELATION = re.compile(r"<=|>=|==|=|<|>|~|[(),]")
+
+
+@dataclass(frozen=True)
+class Names:
+    """The names that a formula may hold.
+
+    where    the file and the claim, for error messages
+    symbols  the symbol or expression for every name
+    calls    the names of the formulas on a sheet, each with its number of arguments
+    """
+
+    where: str
+    symbols: Mapping[str, Expr]
+    calls: Mapping[str, int]
+
+    @cached_property
+    def words(self) -> Words:
+        """The functions that may be called."""
+        calls = {name: Function("", count, count) for name, count in self.calls.items()}
+        return Words({**_FUNCTIONS, **_ALONG, **calls}, _DEEPEST)
+
+
+class UnknownName(BadFormula):
+    """A formula that contains an unknown name."""
+
+
+def equation(text: str, names: Names, rough: bool = False) -> tuple[Expr, Relation, Expr]:
+    """Return the left side, the relation and the right side; raises BadFormula.
+
+    rough: whether the relation may be ~.
+    """
+    relations, depth = list[re.Match[str]](), 0
+    for each in _RELATION.finditer(text):
+        depth += (each[0] == "(") - (each[0] == ")")
+        if depth == 0 and each[0] not in "(),":
+            relations.append(each)
+    if len(relations) != 1:
+        column = relations[1].start() if relations else len(text)
+        why = "there are two relations here" if relations else "there is no relation here"
+        raise BadFormula(names.where, text, column, why, "write exactly one, as in left = right")
+    start, end = relations[0].span()
+    sign = relations[0][0].replace("==", "=")
+    if sign == Relation.LIKE and not rough:
+        why = "~ cannot be checked without a limit"
+        remedy = "add as = 'x -> 0' to the claim, or equate the leading terms with ="
+        raise BadFormula(names.where, text, start, why, remedy)
+    left = formula(text[:start], names)
+    return left, Relation(sign), formula(" " * end + text[end:], names)
+
+
+def unknown(text: str, names: Names) -> list[str]:
+    """Return all unknown names in a text; a bound variable is known only inside its call."""
+    found = set[str]()
+    for part in re.split(r"<=|>=|==|=|~", text):
+        try:
+            tree = parse(part, names.words)
+        except BadText:
+            continue
+        bound = {
+            id(name)
+            for call in ast.walk(tree.root)
+            if isinstance(call, ast.Call) and ast.unparse(call.func) in _BINDING
+            for name in (*ast.walk(call.args[0]), call.args[1])
+            if isinstance(name, ast.Name) and name.id == getattr(call.args[1], "id", "")
+        }
+        held = (each for each in ast.walk(tree.root) if isinstance(each, ast.Name))
+        found |= {each.id for each in held if id(each) not in bound} & tree.names().keys()
+    return sorted(found - names.symbols.keys() - {"oo"})
+
+
+def formula(text: str, names: Names) -> Expr:
+    """Read `text` as an expression; raises BadFormula."""
+    return _read(text, names, lambda reader: reader.value(reader.tree.root))
+
+
+def condition(text: str, names: Names) -> Boolean:
+    """Read `text`, such as 0 < b and b < w, as a condition; raises BadFormula."""
+    return _read(text, names, lambda reader: reader.condition(reader.tree.root))
+
+
+def approach(text: str, names: Names) -> tuple[Expr, Expr]:
+    """Read a limit such as "c - x -> 0" as an expression and its end; raises BadFormula."""
+    parts = text.split("->")
+    if len(parts) != 2:
+        raise BadFormula(names.where, text, 0, "this is not a limit", "write one such as x -> 0")
+    first = formula(parts[0], names)
+    end = parts[1].strip()
+    if end in ("oo", "-oo"):
+        return first, oo if end == "oo" else -oo
+    return first, formula(" " * (len(parts[0]) + 2) + parts[1], names)
+
+
+def _read(text: str, names: Names, convert: Callable[["_Reader"], Any]) -> Any:
+    if len(text) > LONGEST:
+        why = f"the formula has {len(text)} characters, and at most {LONGEST} are read"
+        remedy = "define parts of it as symbols"
+        raise BadFormula(names.where, text[:LONGEST], LONGEST, why, remedy)
+    try:
+        return convert(_Reader(parse(text, names.words), names))
+    except BadText as error:
+        raise BadFormula(names.where, text, error.column, error.why, error.remedy) from error
+
+
+class _Reader(Meaning):
+    """Read values and conditions in one text of a claims file."""
+
+    functions = _FUNCTIONS
+
+    def __init__(self, tree: Tree, names: Names) -> None:
+        super().__init__(tree, names.symbols)
+        self.names = names
+
+    def named(self, node: ast.Name) -> Expr:
+        """Return the expression for a name; raises UnknownName."""
+        if node.id not in self.symbols:
+            known = ", ".join(sorted(self.names.symbols))
+            why = f"the claims file does not define {node.id}"
+            remedy = f"define it, or use one of the known names {known}"
+            column = self.tree.column(node)
+            raise UnknownName(self.names.where, self.tree.text, column, why, remedy)
+        return self.symbols[node.id]
+
+    def call(self, node: ast.Call, name: str) -> Expr:
+        """Return the value of a function; a formula of the sheet remains a call."""
+        if name in _ALONG:
+            return self._along(node, name, *node.args)
+        if name in self.names.calls:
+            return SymPyFunction(name)(*map(self.value, node.args))
+        return super().call(node, name)
+
+    def _along(
+        self, node: ast.Call, name: str, over: ast.expr, along: ast.expr, *ends: ast.expr
+    ) -> Expr:
+        """Return an integral, a sum, a limit or a derivative."""
+        why, remedy = "the second argument is not a variable", f"write {name}(f, s, ...)"
+        if not isinstance(along, ast.Name) or along.id == PI:
+            raise self.refusal(node, why, remedy)
+        limits, outside = [self._end(end, name) for end in ends], self.symbols
+        if name in _BINDING and (along.id not in outside or name == "sum"):
+            self.symbols = {**outside, along.id: Symbol(along.id, real=True)}
+        variable, inside = self.named(along), self.value(over)
+        self.symbols = outside
+        if not isinstance(variable, Symbol):
+            raise self.refusal(node, why, remedy)
+        match name:
+            case "integral":
+                return self._integral(node, inside, variable, *limits)
+            case "pv":
+                return PrincipalValue(inside, variable, *limits)
+            case "sum":
+                return self._sum(node, inside, variable, *limits)
+            case "limit":
+                # a variable that is known only inside a limit at zero is a small positive one
+                small = variable.is_positive or variable not in self.names.symbols.values()
+                from_above = small and limits[0] == 0
+                return Limit(inside, variable, *limits, dir="+" if from_above else "+-")
+        times = limits[0] if limits else S.One
+        if not (times.is_Integer and 0 < times < 5):
+            why = "the order of this derivative is not allowed"
+            raise self.refusal(node, why, "write a whole number from 1 to 4")
+        return Derivative(inside, (variable, times))
+
+    def _end(self, node: ast.expr, name: str) -> Expr:
+        """Return an end of an integral, a sum or a limit, which may be infinite."""
+        is_negative = isinstance(node, ast.UnaryOp)
+        inner = node.operand if isinstance(node, ast.UnaryOp) else node
+        if name == "diff" or not (isinstance(inner, ast.Name) and inner.id == "oo"):
+            return self.value(node)
+        if name == "pv":
+            why = "an end of this principal value is infinite"
+            raise self.refusal(node, why, "split off an integral without a pole")
+        return -oo if is_negative else oo
+
+    def _integral(self, node: ast.Call, inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
+        if low == oo or high == -oo:
+            why = "the ends of this integral are in the wrong order"
+            raise self.refusal(node, why, "write the smaller end first")
+        if low == -oo:
+            mirrored = inside.subs(along, -along)
+            if high == oo:
+                return ToInfinity(mirrored, along, S.Zero) + ToInfinity(inside, along, S.Zero)
+            return ToInfinity(mirrored, along, -high)
+        if high == oo:
+            return ToInfinity(inside, along, low)
+        return Integral(inside, (along, low, high))
+
+    def _sum(self, node: ast.Call, inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
+        if not low.is_Integer or not (high.is_Integer or high == oo):
+            why = "the ends of this sum are not whole numbers"
+            raise self.refusal(node, why, "write whole numbers, or oo for the upper end")
+        if high == oo:
+            count = Symbol(along.name, integer=True)
+            done = Sum(inside.xreplace({along: count}), (count, low, high)).doit()
+            if done.has(Sum) or not isinstance(done, Expr) or fault(done):
+                why = "no closed form of this infinite sum is known"
+                raise self.refusal(node, why, "write its value, or finitely many terms")
+            return done
+        if high - low >= _MOST_TERMS:
+            why = f"this sum has more than {_MOST_TERMS} terms"
+            raise self.refusal(node, why, "write a shorter sum or its closed form")
+        total: Expr = S.Zero
+        for n in range(int(low), int(high) + 1):
+            total = self.step(node, operator.add, total, inside.xreplace({along: S(n)}))
+        return total
+
+
+def rounded_in(text: str) -> list[re.Match[str]]:
+    """Find the decimal numbers that have enough digits to be rounded values."""
+    decimals = re.finditer(r"(?<![\w.])\d*\.\d+(?![\w.])", text)
+    return [n for n in decimals if len(n[0].replace(".", "").lstrip("0")) >= _ROUNDED_FROM]
+
+
+def may_be_rounded(text: str) -> bool:
+    """Whether a formula contains a number that may be rounded."""
+    return bool(rounded_in(text))
+
+
+def usable(name: str, taken: Collection[str] = ()) -> bool:
+    """Whether a name may be declared in a claims file."""
+    plain = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) is not None
+    reserved = {PI, "oo", *LOGICAL.values(), *KEYWORDS, *_FUNCTIONS, *_ALONG, *taken}
+    return plain and name not in reserved

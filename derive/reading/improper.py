@@ -1,0 +1,73 @@
+"""Principal values and integrals to infinity, which SymPy does not have."""
+
+from typing import Any
+
+from sympy import Expr, Function, Integral, Min, Mul, Symbol, degree, denom, oo, solve, together
+from sympy.printing.latex import LatexPrinter
+
+from derive.errors import BadFormula
+
+FROM_POLE = "_from_pole"
+"""Suffix of the variable of a folded principal value, whose upper end must be positive."""
+
+
+class NoPole(BadFormula):
+    """A principal value whose integrand does not have exactly one recognisable pole."""
+
+
+class PrincipalValue(Function):
+    """The principal value of an integral along a symbol between two ends; see `proper`."""
+
+    nargs = 4
+    integrates = True
+
+    def _latex(self, printer: LatexPrinter) -> str:
+        inside, *limits = self.args
+        return rf"\mathrm{{PV}}\!{printer._print(Integral(inside, tuple(limits)))}"
+
+
+class ToInfinity(Function):
+    """An integral along a symbol from a lower end to infinity."""
+
+    nargs = 3
+    integrates = True
+
+    def _latex(self, printer: LatexPrinter) -> str:
+        inside, *limits = self.args
+        return str(printer._print(Integral(inside, (*limits, oo))))
+
+
+IMPROPER = (PrincipalValue, ToInfinity)
+
+
+def proper(expr: Any) -> Any:
+    """Rewrite all integrals without poles and with finite ends; raises NoPole."""
+    return expr.replace(lambda n: isinstance(n, IMPROPER), _proper)
+
+
+def _proper(node: Expr) -> Expr:
+    inside, along, low, *high = node.args
+    if isinstance(node, ToInfinity):
+        moved = low + along / (1 - along)
+        return Integral(inside.subs(along, moved) / (1 - along) ** 2, (along, 0, 1))
+    return _folded(inside, along, low, *high)
+
+
+def _folded(inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
+    """Write a principal value as the integrand folded about its pole, plus the remainder."""
+    poles = set[Expr]()
+    for factor in Mul.make_args(denom(together(inside))):
+        if factor.is_polynomial(along) and factor.has(along) and degree(factor, along) == 1:
+            poles |= set(solve(factor, along))
+    if len(poles) != 1:
+        why = "the integrand does not have exactly one recognisable pole"
+        text = str(inside)
+        remedy = "write its denominator with one factor such as s - x"
+        raise NoPole("a principal value", text, 0, why, remedy)
+    (pole,) = poles
+    distance = Symbol(along.name + FROM_POLE, real=True)
+    reach = Min(pole - low, high - pole)  # the nearer end
+    both = inside.subs(along, pole + distance) + inside.subs(along, pole - distance)
+    around = Integral(together(both), (distance, 0, reach))
+    left = Integral(inside, (along, low, pole - reach))
+    return around + left + Integral(inside, (along, pole + reach, high))

@@ -1,0 +1,68 @@
+"""Read g(x) of a body, given as text."""
+
+from collections.abc import Mapping
+
+from sympy import Expr, Symbol
+
+from derive.errors import BadName
+from derive.geometry import parameter
+from derive.reading.tree import Tree, parse
+from derive.reading.value import Meaning
+from derive.reading.words import FUNCTIONS, Words
+from derive.symbols import x
+
+_OF_THE_FILE = frozenset({"Geometry", "geometry", "parameter", "Rational"})
+"""Names that the geometry file itself uses."""
+
+
+def read(text: str) -> Expr:
+    """The SymPy expression of g(x), with a plain positive symbol for each parameter.
+
+    Raises BadText.
+
+    >>> read("abs(x)**1.5 / sqrt(R)")
+    Abs(x)**(3/2)/sqrt(R)
+    """
+    tree = tree_of(text)
+    return value(tree, {name: Symbol(name, positive=True) for name in parameters(tree)})
+
+
+def tree_of(text: str) -> Tree:
+    """The tree of g(x); raises BadText."""
+    return parse(text, OF_PROFILES)
+
+
+def value(tree: Tree, symbols: Mapping[str, Symbol]) -> Expr:
+    """The expression of g(x) with the given symbols for its parameters; raises BadText."""
+    return Meaning(tree, {"x": x, **symbols}).value(tree.root)
+
+
+def parameters(tree: Tree) -> dict[str, int]:
+    """Every parameter of g(x), with the column of its first occurrence."""
+    return {name: column for name, column in tree.names().items() if name != "x"}
+
+
+def _mistake(name: str) -> tuple[str, str] | None:
+    """Why a parameter cannot have a name, and what to do instead."""
+    try:
+        if name in _OF_THE_FILE:
+            raise BadName("parameter", name, "is used by the geometry file itself")
+        if name != "x":
+            parameter(name, "")
+    except BadName as error:
+        return f"parameter {name!r} {error.why}", _other(name)
+    return None
+
+
+def _other(name: str) -> str:
+    """The advice to choose another name for a parameter, with an example if there is one."""
+    other = f"{name.strip('_')}0"
+    try:
+        parameter(other, "")
+    except BadName:
+        return "choose another name of letters and digits"
+    return f"choose another name, such as {other}"
+
+
+OF_PROFILES = Words(FUNCTIONS, deepest=30, mistake=_mistake)
+"""The names that g(x) may contain."""
