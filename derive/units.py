@@ -37,8 +37,7 @@ from sympy.core.relational import Relational
 
 from derive.errors import BadText, BadUnit, DimensionMismatch
 from derive.reading.tree import parse
-from derive.reading.words import Function as Known
-from derive.reading.words import Words
+from derive.reading.words import FUNCTIONS, Words
 
 
 @dataclass(frozen=True)
@@ -81,7 +80,7 @@ _UNITS = {
     "N": Dimension(pressure=S.One, length=Integer(2)),
     "rad": NUMBER,
 }
-_WORDS = Words({"sqrt": Known("sqrt")}, deepest=20)
+_WORDS = Words({"sqrt": FUNCTIONS["sqrt"]}, deepest=20)
 
 
 def parse_unit(text: str) -> Dimension:
@@ -95,8 +94,8 @@ def parse_unit(text: str) -> Dimension:
         return NUMBER
     try:
         return _unit(parse(text, _WORDS).root, text)
-    except BadText as error:
-        raise BadUnit(text, error.why) from None
+    except BadText:
+        raise BadUnit(text, "it is not a product of powers") from None
 
 
 def _unit(node: ast.expr, text: str) -> Dimension:

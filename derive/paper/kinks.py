@@ -9,39 +9,27 @@ places      the zeros of the switches along one variable, as functions of all ot
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
-from itertools import combinations
 
 from sympy import (
-    Abs,
     Expr,
-    Heaviside,
     Integral,
-    Max,
-    Min,
     Mul,
     Poly,
     Pow,
     S,
     Symbol,
-    acos,
-    acosh,
-    asin,
     atan2,
-    atanh,
-    cos,
     cosh,
-    elliptic_e,
-    elliptic_k,
-    elliptic_pi,
     exp,
     fraction,
-    log,
-    sign,
     tan,
     together,
 )
 from sympy.core.relational import Relational
 
+from derive.reading.words import FUNCTIONS
+
+_SWITCHES = {each.of_sympy: each.switches for each in FUNCTIONS.values()}
 _HIGHEST = 8
 """The highest degree of a polynomial whose roots are computed directly."""
 _ROOTS = 2
@@ -79,27 +67,12 @@ def _own(expr: Expr) -> Iterator[tuple[str, Expr]]:
     """Yield the switches of the outermost operation only."""
     if isinstance(expr, Pow):
         yield from _of_power(expr)
-    elif isinstance(expr, Abs | sign | Heaviside):
-        yield "kink", expr.args[0]
-    elif isinstance(expr, log):
-        inner = expr.args[0]
-        yield "log", inner.args[0] if isinstance(inner, Abs) else inner
-    elif isinstance(expr, asin | acos | atanh):
-        yield from (
-            ("root" if expr.func != atanh else "log", 1 + s * expr.args[0]) for s in (1, -1)
-        )
-    elif isinstance(expr, acosh):
-        yield "root", expr.args[0] - 1
     elif isinstance(expr, atan2):
         yield "kink", expr.args[0]
-    elif isinstance(expr, tan):
-        yield "pole", cos(expr.args[0])
-    elif isinstance(expr, elliptic_k | elliptic_e | elliptic_pi):
-        yield from (("log", 1 - arg) for arg in expr.args)
-    elif isinstance(expr, Max | Min):
-        yield from (("kink", one - other) for one, other in combinations(expr.args, 2))
     elif isinstance(expr, Relational):
         yield "kink", expr.lhs - expr.rhs
+    elif expr.func in _SWITCHES:
+        yield from _SWITCHES[expr.func](*expr.args)
 
 
 def _of_power(expr: Expr) -> Iterator[tuple[str, Expr]]:

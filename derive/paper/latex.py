@@ -19,6 +19,7 @@ from typing import NoReturn
 from derive.errors import BadFormula
 from derive.paper.spellings import GREEK, letter_name
 from derive.reading.relation import Relation
+from derive.reading.words import COMMANDS, FUNCTIONS
 
 _LONGEST = 2000
 """The largest number of characters in an equation."""
@@ -31,33 +32,14 @@ _TOKEN = re.compile(
     re.DOTALL,
 )
 _SPACES = frozenset((r"\,", r"\;", r"\:", r"\!", r"\ ", r"\quad", r"\qquad", r"\left", r"\right"))
-_FUNCTIONS = {
-    rf"\{name}": name for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")
-} | {
-    r"\arcsin": "asin",
-    r"\arccos": "acos",
-    r"\arctan": "atan",
-    r"\ln": "log",
-    r"\sgn": "sign",
-    r"\cot": "1/tan",
-    r"\sec": "1/cos",
-    r"\csc": "1/sin",
-    r"\max": "Max",
-    r"\min": "Min",
-    r"\Gamma": "gamma_function",
-    r"\arsinh": "asinh",
-    r"\arcosh": "acosh",
-    r"\artanh": "atanh",
-}
+_FUNCTIONS = COMMANDS | {r"\cot": "1/tan", r"\sec": "1/cos", r"\csc": "1/sin"}
 _CIRCULAR = frozenset(
     name for name in _FUNCTIONS if name.endswith(("sin", "cos", "tan", "sinh", "cosh", "tanh"))
 ) | {r"\cot", r"\sec", r"\csc"}
 """Functions of angles and their inverses: the name of the next function ends their argument."""
 _NEXT = _CIRCULAR | {r"\exp", r"\log", r"\ln"}
 _OF_SEVERAL = frozenset((r"\max", r"\min"))
-_INVERSES = {r"\sin": "asin", r"\cos": "acos", r"\tan": "atan"} | {
-    rf"\{name}": f"a{name}" for name in ("sinh", "cosh", "tanh")
-}
+_INVERSES = {command: f"a{n}" for command, n in COMMANDS.items() if f"a{n}" in FUNCTIONS}
 _FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac", r"\cfrac", r"\nicefrac")
 _INTEGRALS = {r"\int": "integral", r"\pvint": "pv"}
 _BIG = (*_INTEGRALS, r"\sum", r"\lim")

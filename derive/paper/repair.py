@@ -37,25 +37,13 @@ from sympy import (
     Rational,
     S,
     Symbol,
-    acos,
-    acosh,
-    asin,
-    asinh,
-    atan,
-    atanh,
-    cos,
-    cosh,
-    elliptic_e,
-    elliptic_k,
     pi,
     preorder_traversal,
     sign,
-    sin,
-    sinh,
     sqrt,
-    tan,
-    tanh,
 )
+
+from derive.reading.words import FUNCTIONS
 
 WHOLE = "the whole expression"
 """The end of `Edit.what` for a change of a whole side."""
@@ -68,14 +56,8 @@ _FACTORS = tuple(
 )
 _OF_A_TERM = _FACTORS[:6]
 _OF_A_ROOT = _FACTORS[12:]
-_ALIKE = (
-    (sin, cos, tan),
-    (asin, acos, atan),
-    (sinh, cosh, tanh),
-    (asinh, acosh, atanh),
-    (elliptic_k, elliptic_e),
-)
-"""Functions that may have been confused with each other."""
+_LIKE = {each.of_sympy: each.like for each in FUNCTIONS.values() if each.like}
+"""The family of each function; those of one family may have been confused with each other."""
 
 Units = Mapping[Symbol, str]
 """The units of names, where they are known; names of different units are not swapped."""
@@ -220,11 +202,10 @@ def _factors(expr: Expr) -> Iterator[Edit]:
 
 def _other_functions(expr: Expr) -> Iterator[Edit]:
     for call in _functions(expr):
-        for group in _ALIKE:
-            for other in group if call.func in group else ():
-                if other != call.func:
-                    changed = _put(expr, call, other(*call.args))
-                    yield Edit("function", f"{other.__name__} for {call}", changed)
+        for other, family in _LIKE.items():
+            if other != call.func and family == _LIKE.get(call.func):
+                changed = _put(expr, call, other(*call.args))
+                yield Edit("function", f"{other.__name__} for {call}", changed)
 
 
 def _swapped(expr: Expr, swaps: tuple[Symbol, ...], units: Units) -> Iterator[Edit]:

@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 
 from derive.errors import BadFormula
 from derive.paper.spellings import GREEK
+from derive.reading.words import COMMANDS
 
 _MOST = 20_000
 """The largest number of characters in a display."""
@@ -107,12 +108,10 @@ _WHERE = frozenset(
 ) | {"on", "provided", "provided that", "while", "as long as", "in the limit", "valid for"}
 _ELSE = frozenset(("otherwise", "else", "elsewhere"))
 _AS_COMMANDS = {
-    **{name: rf"\{name}" for name in ("sin", "cos", "tan", "cot", "sinh", "cosh", "tanh")},
-    **{name: rf"\{name}" for name in ("exp", "log", "ln", "arcsin", "arccos", "arctan", "max")},
-    **{f"ar{part}{name}": rf"\ar{name}" for name in ("sinh", "cosh", "tanh") for part in ("", "c")},
-    **{f"a{name}": rf"\ar{name}" for name in ("sinh", "cosh", "tanh")},
-    **{f"a{name}": rf"\arc{name}" for name in ("sin", "cos", "tan")},
-    **{"min": r"\min", "sgn": r"\sgn", "sign": r"\sgn", "d": r"\dd", "e": r"\euler"},
+    **{name: command for command, name in COMMANDS.items() if name.islower()},
+    **{command[1:]: command for command in COMMANDS if command.islower()},
+    **{f"arc{name}": rf"\ar{name}" for name in ("sinh", "cosh", "tanh")},
+    **{"cot": r"\cot", "d": r"\dd", "e": r"\euler"},
 }
 """Functions and constants whose name is printed upright."""
 _UNITS = frozenset("gmsJNW")

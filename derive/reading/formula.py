@@ -1,9 +1,8 @@
 """Read an equation or a condition that a user typed, without executing any of it.
 
 The grammar is that of g(x) in derive.reading.tree.  The names must be declared in the claims file.
-In addition to the functions of g(x), the following are available: elliptic integrals of the
-parameter m = k**2, gamma_function, the formulas on the body's formula sheet, which remain calls
-until they are substituted, and
+In addition to the functions of derive.reading.words, the following are available: the formulas on
+the body's formula sheet, which remain calls until they are substituted, and
 
     integral(f, s, low, high)     pv(f, s, low, high)     sum(f, k, low, high)
     diff(f, x)    diff(f, x, 2)   limit(f, x, end)
@@ -37,19 +36,12 @@ _DEEPEST = 40
 _MOST_TERMS = 200
 """The largest number of terms in a finite sum."""
 
-_FUNCTIONS = {
-    **FUNCTIONS,
-    "elliptic_k": Function("elliptic_k"),
-    "elliptic_e": Function("elliptic_e"),
-    "elliptic_pi": Function("elliptic_pi", 2, 2),
-    "gamma_function": Function("gamma"),
-}
 _ALONG = {
-    "integral": Function("", 4, 4),
-    "pv": Function("", 4, 4),
-    "sum": Function("", 4, 4),
-    "diff": Function("", 3, 2),
-    "limit": Function("", 3, 3),
+    "integral": Function(Integral, most=4, least=4),
+    "pv": Function(PrincipalValue, most=4, least=4),
+    "sum": Function(Sum, most=4, least=4),
+    "diff": Function(Derivative, most=3, least=2),
+    "limit": Function(Limit, most=3, least=3),
 }
 """Functions that act along a variable, which is their second argument."""
 _BINDING = _ALONG.keys() - {"diff"}
@@ -76,8 +68,11 @@ class Names:
     @cached_property
     def words(self) -> Words:
         """The functions that may be called."""
-        calls = {name: Function("", count, count) for name, count in self.calls.items()}
-        return Words({**_FUNCTIONS, **_ALONG, **calls}, _DEEPEST)
+        calls = {
+            name: Function(SymPyFunction(name), most=count, least=count)
+            for name, count in self.calls.items()
+        }
+        return Words({**FUNCTIONS, **_ALONG, **calls}, _DEEPEST)
 
 
 class UnknownName(BadFormula):
@@ -164,8 +159,6 @@ def _read(text: str, names: Names, convert: Callable[["_Reader"], Any]) -> Any:
 class _Reader(Meaning):
     """Read values and conditions in one text of a claims file."""
 
-    functions = _FUNCTIONS
-
     def __init__(self, tree: Tree, names: Names) -> None:
         super().__init__(tree, names.symbols)
         self.names = names
@@ -184,8 +177,6 @@ class _Reader(Meaning):
         """Return the value of a function; a formula of the sheet remains a call."""
         if name in _ALONG:
             return self._along(node, name, *node.args)
-        if name in self.names.calls:
-            return SymPyFunction(name)(*map(self.value, node.args))
         return super().call(node, name)
 
     def _along(
@@ -278,5 +269,5 @@ def may_be_rounded(text: str) -> bool:
 def usable(name: str, taken: Collection[str] = ()) -> bool:
     """Whether a name may be declared in a claims file."""
     plain = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) is not None
-    reserved = {PI, "oo", *LOGICAL.values(), *KEYWORDS, *_FUNCTIONS, *_ALONG, *taken}
+    reserved = {PI, "oo", *LOGICAL.values(), *KEYWORDS, *FUNCTIONS, *_ALONG, *taken}
     return plain and name not in reserved

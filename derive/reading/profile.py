@@ -8,7 +8,7 @@ from derive.errors import BadName
 from derive.geometry import parameter
 from derive.reading.tree import Tree, parse
 from derive.reading.value import Meaning
-from derive.reading.words import FUNCTIONS, Words
+from derive.reading.words import FUNCTIONS_OF_PROFILES, Words
 from derive.symbols import x
 
 _OF_THE_FILE = frozenset({"Geometry", "geometry", "parameter", "Rational"})
@@ -64,5 +64,5 @@ def _other(name: str) -> str:
     return f"choose another name, such as {other}"
 
 
-OF_PROFILES = Words(FUNCTIONS, deepest=30, mistake=_mistake)
+OF_PROFILES = Words(FUNCTIONS_OF_PROFILES, deepest=30, mistake=_mistake)
 """The names that g(x) may contain."""

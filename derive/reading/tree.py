@@ -34,10 +34,12 @@ _FUNCTION, _CONSTANT = "function", "constant"
 class Tree:
     """A text and its tree.
 
-    tokens: those that Python has read; token number n is on its line n + 1
+    words   the names that the text may contain
+    tokens  those that Python has read; token number n is on its line n + 1
     """
 
     text: str
+    words: Words
     tokens: tuple[Token, ...]
     root: ast.expr
 
@@ -77,7 +79,7 @@ def parse(text: str, words: Words) -> Tree:
     kept = _Scan(text, words).whole()
     lines = "\n".join(_LEADING_ZEROS.sub("", token.text) for token in kept)
     root = ast.parse(f"({lines}\n)", mode="eval").body
-    return Tree(text, tuple(kept), root)
+    return Tree(text, words, tuple(kept), root)
 
 
 @dataclass

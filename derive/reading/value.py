@@ -7,13 +7,13 @@ from functools import reduce
 from itertools import pairwise
 from typing import Any
 
-from sympy import Expr, Rational, pi, true
+from sympy import Expr, Piecewise, Rational, pi, true
 from sympy.logic.boolalg import Boolean
 
 from derive.errors import BadText
 from derive.reading.limits import STEEPEST, fault, reach
 from derive.reading.tree import Tree
-from derive.reading.words import FUNCTIONS, PI, Function, refusal
+from derive.reading.words import PI, refusal
 
 _OPERATORS: dict[type[ast.operator | ast.cmpop | ast.boolop], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -41,8 +41,6 @@ class Meaning:
 
     symbols: the symbol or expression of each name
     """
-
-    functions: Mapping[str, Function] = FUNCTIONS
 
     def __init__(self, tree: Tree, symbols: Mapping[str, Expr]) -> None:
         self.tree = tree
@@ -77,7 +75,8 @@ class Meaning:
 
     def call(self, node: ast.Call, name: str) -> Expr:
         """The value of a function call."""
-        return self.step(node, self.functions[name].of_sympy, *map(self.value, node.args))
+        function = self.tree.words.functions[name].of_sympy
+        return self.step(node, function, *map(self.value, node.args))
 
     def _operations(self, node: ast.expr) -> Expr:
         """The value of a chain of operations, from left to right."""
@@ -101,7 +100,7 @@ class Meaning:
                 why = "the arguments of Piecewise must be pairs"
                 raise self.refusal(pair, why, "write (value, condition), ...")
             pairs.append((self.value(pair.elts[0]), self.condition(pair.elts[1])))
-        return self.step(node, FUNCTIONS["Piecewise"].of_sympy, *pairs)
+        return self.step(node, Piecewise, *pairs)
 
     def condition(self, node: ast.expr) -> Boolean:
         """The condition of a node; raises BadText if the node is a value."""

@@ -1,30 +1,47 @@
-"""The functions and names that a text may contain; all others are refused."""
+"""The functions and names that a text may contain; all others are refused.
+
+Each function has one row, in the table below.  To let claims use another one, add its row.
+"""
 
 import keyword
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 import sympy
+from sympy import Expr
 
 from derive.errors import BadText
 
 MANY = 20
 """The largest number of arguments of a function."""
 
+Switches = list[tuple[str, Expr]]
+"""Expressions at whose zeros a function is not smooth, each with its kind in derive.paper.kinks."""
+
+
+def _smooth(*_: Expr) -> Switches:
+    return []
+
 
 @dataclass(frozen=True)
 class Function:
-    """A function that may be called: its name in SymPy and its numbers of arguments."""
+    """A function that may be called.
 
-    name: str
+    of_sympy     the function in SymPy
+    latex        the commands that print it
+    switches     where it may not be smooth, for its arguments
+    like         its family: functions of one family may have been confused in print
+    most, least  the numbers of its arguments
+    """
+
+    of_sympy: Callable[..., Any]
+    latex: str = ""
+    switches: Callable[..., Switches] = _smooth
+    like: str = ""
     most: int = 1
     least: int = 1
-
-    @property
-    def of_sympy(self) -> Callable[..., Any]:
-        """The function in SymPy."""
-        return getattr(sympy, self.name)
 
     @property
     def number(self) -> str:
@@ -36,20 +53,80 @@ class Function:
         return f"{self.least} to {self.most}"
 
 
-_OF_ONE = (
-    *("Abs", "sqrt", "sign", "Heaviside", "exp", "log", "sin", "cos", "tan", "asin", "acos"),
-    *("atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh"),
-)
+def _kink(argument: Expr, *_: Expr) -> Switches:
+    return [("kink", argument)]
 
-FUNCTIONS = {name: Function(name) for name in _OF_ONE} | {
-    "abs": Function("Abs"),
-    "Max": Function("Max", MANY),
-    "max": Function("Max", MANY),
-    "Min": Function("Min", MANY),
-    "min": Function("Min", MANY),
-    "Piecewise": Function("Piecewise", MANY),
+
+def _kinks_between(*arguments: Expr) -> Switches:
+    return [("kink", one - other) for one, other in combinations(arguments, 2)]
+
+
+def _logarithm(argument: Expr) -> Switches:
+    return [("log", argument.args[0] if isinstance(argument, sympy.Abs) else argument)]
+
+
+def _logarithms_at_one(*arguments: Expr) -> Switches:
+    return [("log", 1 - argument) for argument in arguments]
+
+
+def _logarithms(argument: Expr) -> Switches:
+    return [("log", 1 + argument), ("log", 1 - argument)]
+
+
+def _roots(argument: Expr) -> Switches:
+    return [("root", 1 + argument), ("root", 1 - argument)]
+
+
+def _root_at_one(argument: Expr) -> Switches:
+    return [("root", argument - 1)]
+
+
+def _pole(angle: Expr) -> Switches:
+    return [("pole", sympy.cos(angle))]
+
+
+_OF_PROFILES = {
+    "Abs": Function(sympy.Abs, switches=_kink),
+    "sqrt": Function(sympy.sqrt),
+    "sign": Function(sympy.sign, r"\sgn", _kink),
+    "Heaviside": Function(sympy.Heaviside, switches=_kink),
+    "Max": Function(sympy.Max, r"\max", _kinks_between, most=MANY),
+    "Min": Function(sympy.Min, r"\min", _kinks_between, most=MANY),
+    "Piecewise": Function(sympy.Piecewise, most=MANY),
+    "exp": Function(sympy.exp, r"\exp"),
+    "log": Function(sympy.log, r"\ln \log", _logarithm),
+    "sin": Function(sympy.sin, r"\sin", like="circular"),
+    "cos": Function(sympy.cos, r"\cos", like="circular"),
+    "tan": Function(sympy.tan, r"\tan", _pole, "circular"),
+    "asin": Function(sympy.asin, r"\arcsin", _roots, "inverse circular"),
+    "acos": Function(sympy.acos, r"\arccos", _roots, "inverse circular"),
+    "atan": Function(sympy.atan, r"\arctan", like="inverse circular"),
+    "sinh": Function(sympy.sinh, r"\sinh", like="hyperbolic"),
+    "cosh": Function(sympy.cosh, r"\cosh", like="hyperbolic"),
+    "tanh": Function(sympy.tanh, r"\tanh", like="hyperbolic"),
+    "asinh": Function(sympy.asinh, r"\arsinh", like="inverse hyperbolic"),
+    "acosh": Function(sympy.acosh, r"\arcosh", _root_at_one, "inverse hyperbolic"),
+    "atanh": Function(sympy.atanh, r"\artanh", _logarithms, "inverse hyperbolic"),
 }
-"""The functions of g(x)."""
+_OF_CLAIMS = {
+    "elliptic_k": Function(sympy.elliptic_k, "", _logarithms_at_one, "elliptic"),
+    "elliptic_e": Function(sympy.elliptic_e, "", _logarithms_at_one, "elliptic"),
+    "elliptic_pi": Function(sympy.elliptic_pi, "", _logarithms_at_one, most=2, least=2),
+    "gamma_function": Function(sympy.gamma, r"\Gamma"),
+}
+"""Further functions of claims; elliptic integrals are those of the parameter m = k**2."""
+_ALIASES = {name.lower(): _OF_PROFILES[name] for name in ("Abs", "Max", "Min")}
+
+FUNCTIONS_OF_PROFILES = {**_OF_PROFILES, **_ALIASES}
+"""The functions that g(x) may contain."""
+FUNCTIONS = {**FUNCTIONS_OF_PROFILES, **_OF_CLAIMS}
+"""The functions that claims may contain."""
+COMMANDS = {
+    command: name
+    for name, each in {**_OF_PROFILES, **_OF_CLAIMS}.items()
+    for command in each.latex.split()
+}
+"""The function for each command of LaTeX."""
 
 PI, TRUE = "pi", "True"
 LOGICAL = {"&": "and", "|": "or", "~": "not"}

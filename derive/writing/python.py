@@ -45,7 +45,7 @@ class _Exact(ast.NodeTransformer):
 
     def visit_Call(self, node: ast.Call) -> ast.Call:
         """A function of SymPy."""
-        name = FUNCTIONS[ast.unparse(node.func)].name
+        name = FUNCTIONS[ast.unparse(node.func)].of_sympy.__name__
         return ast.Call(self._imported(name), [self.visit(each) for each in node.args], [])
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> ast.expr:

@@ -15,6 +15,7 @@ from derive.paper.statements import statements
 from derive.paper.userfile import read_claims
 from derive.paper.verdict import check
 from derive.reading.formula import Names, equation, unknown
+from derive.reading.words import COMMANDS, FUNCTIONS
 
 
 def drafted(folder: Path, body: str) -> Draft:
@@ -90,6 +91,16 @@ def understood(latex: str) -> str:
 )
 def test_what_is_read(latex: str, texts: str) -> None:
     assert understood(latex) == texts
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_function_is_read_from_its_command(command: str) -> None:
+    """And from its upright name, unless that begins with a capital letter."""
+    name = COMMANDS[command]
+    arguments = "(a, b)" if FUNCTIONS[name].most > 1 else "(a)"
+    assert understood(rf"y = {command}{arguments}") == f"y = {name}{arguments}"
+    if command.islower():
+        assert understood(rf"y = \mathrm{{{command[1:]}}}{arguments}") == f"y = {name}{arguments}"
 
 
 @pytest.mark.parametrize(
