@@ -25,7 +25,7 @@ from derive.reading.words import KEYWORDS, LOGICAL, PI, TRUE, Words, refusal
 _DIGITS = 40
 _POWER_OF_TEN = 100
 _LEADING_ZEROS = re.compile(r"^0+(?=\d)")
-_BINARY = (*("+", "-", "*", "/", "**", "<", "<=", ">", ">="), *("and", "&", "or", "|"))
+_BINARY = ("+", "-", "*", "/", "**", "<", "<=", ">", ">=", "and", "&", "or", "|")
 _FUNCTION, _CONSTANT = "function", "constant"
 """Kinds of names; x, parameters and symbols are of the kind NAME."""
 
@@ -56,7 +56,7 @@ class Tree:
         return Fraction(self._tokens_of(node)[0].text)
 
     def column(self, node: ast.expr) -> int:
-        """The column of an operation's first operator, or of the first token of another node."""
+        """The column of the operator of an operation, or of the first token of another node."""
         match node:
             case ast.BinOp(left=left) | ast.Compare(left=left) | ast.BoolOp(values=[left, *_]):
                 return self.after(left)
