@@ -138,11 +138,11 @@ def test_mirrored_and_run_backwards_it_is_the_same(name):
     assert backwards == pytest.approx(here, rel=1e-12)
 
 
-@pytest.mark.parametrize("tension", [0.3, -0.9])
+@pytest.mark.parametrize("tension", [0.0106, -0.0106])
 def test_an_edge_a_hair_beyond_a_kink_does_not_matter(tension):
     """The stick zone of [-b - d, c] tends to that of [-b, c] as d vanishes.  Singularities of the
     pressure are close to each other there."""
-    rows = [(1 + d, 1.3, 1 + d, 1.3, 0.002, tension, 0.3) for d in (1e-14, 1e-12, 1e-11)]
+    rows = [(1 + d, 1.3, 1 + d, 1.3, 0.0048, tension, 0.3) for d in (1e-14, 1e-12, 1e-11)]
     zones = zone(flat_rounded, *rows)
     assert np.all(zones[:, 2] == LARGE)
     assert_allclose(zones[1:, :2], np.broadcast_to(zones[0, :2], (2, 2)), rtol=0, atol=1e-10)

@@ -156,7 +156,7 @@ def _each(
         f, E_star = full["f"][at][0], full["E_star"][at][0]
         parameters = {name: full[name][at][0] for name in own}
         loads = np.array([full[name][at] / E_star for name in _LOADS])
-        with _one_thread(), np.errstate(all="ignore"):
+        with _one_thread()(), np.errstate(all="ignore"):
             found = solve(at, body, parameters, f, loads, points, tol)
         for name, value in found._asdict().items():
             scale = E_star if name in ("q", "work", "work_error", "shear_error") else 1
@@ -169,19 +169,13 @@ def _each(
 
 
 @cache
-def _pools() -> Any:
-    """The threads of linear algebra; None without threadpoolctl."""
+def _one_thread() -> Callable[[], AbstractContextManager[Any]]:
+    """Linear algebra on one thread, which is faster than several for matrices as small as these."""
     try:
         from threadpoolctl import ThreadpoolController
     except ImportError:
-        return None
-    return ThreadpoolController()
-
-
-def _one_thread() -> AbstractContextManager[Any]:
-    """Linear algebra on one thread, which is faster than several for matrices as small as these."""
-    pools = _pools()
-    return pools.limit(limits=1, user_api="blas") if pools else nullcontext()
+        return nullcontext
+    return partial(ThreadpoolController().limit, limits=1, user_api="blas")
 
 
 def _shown(cases: list[Any]) -> Iterable[Any]:
