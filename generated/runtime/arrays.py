@@ -96,12 +96,11 @@ def solved(
     own: Mapping[str, Any],
     kind: Any = None,
     whole: tuple[str, ...] = (),
-    options: tuple[float, ...] = (),
 ) -> Any:
     """What a loop finds for every case of arguments that broadcast.
 
-    loop: fills a table of results; it takes the law of the body, a row per case of `given`,
-        `constants` and `options` in their order, and a row of the body's parameters `own`.
+    loop: fills a table of results; it takes the law of the body, a row per case of `given`
+        and `constants` in their order, and a row of the body's parameters `own`.
     kind: the named tuple of the results, or None for a single array.
     whole: names of the results that are integers.
 
@@ -111,10 +110,10 @@ def solved(
     shape = shape_of(numbers)
     if any_lazy(numbers.values()):
         names = tuple(given), tuple(constants), tuple(own)
-        call = partial(_solved_chunk, loop, body, names, kind, whole, options)
+        call = partial(_solved_chunk, loop, body, names, kind, whole)
         return over_chunks(call, loop.__name__.removeprefix("each_"), numbers)
     row, rest = len(given) + len(constants), [*numbers.values()]
-    cases = _table([*rest[:row], *options], shape)
+    cases = _table(rest[:row], shape)
     out = np.empty((len(cases), 1 if kind is None else len(kind._fields)))
     loop(body.law, cases, _table(rest[row:], shape), out)
     columns = [*out[0]] if not shape else [column.reshape(shape) for column in out.T]
@@ -132,11 +131,10 @@ def _solved_chunk(
     names: tuple[tuple[str, ...], ...],
     kind: Any,
     whole: tuple[str, ...],
-    options: tuple[float, ...],
     numbers: Numbers,
 ) -> Any:
     given, constants, own = ({name: numbers[name] for name in group} for group in names)
-    return solved(loop, body, given, constants, own, kind, whole, options)
+    return solved(loop, body, given, constants, own, kind, whole)
 
 
 def _table(values: list[Any], shape: tuple[int, ...]) -> Any:

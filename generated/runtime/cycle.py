@@ -258,12 +258,12 @@ def slip_error(body: Body, own: Own, *arguments: Values, order: int) -> Edges:
 
 def shear_change(*arguments: Any) -> Array:
     """The change in the shear traction over a half-cycle."""
-    return _at_places(each_shear_change, *arguments)
+    return _at_places(each_shear_change, *arguments)[1]
 
 
 def slip_range(*arguments: Any) -> Array:
     """The slip range over a half-cycle."""
-    return _at_places(each_slip_range, *arguments)
+    return _at_places(each_slip_range, *arguments)[1]
 
 
 def _at_places(
@@ -277,11 +277,11 @@ def _at_places(
     dsigma: Values,
     f: Values,
     E_star: Values,
-) -> Array:
-    """Shear change or slip range; the stick zone is solved once per cycle for all places x."""
+) -> tuple[StickZone, Array]:
+    """The stick zone, solved once per cycle, and what a loop finds at places x."""
     zone = stick_zone(body, own, first, second, dQ, dsigma, f, E_star)
     given = {**_between(first, second, dQ=dQ, dsigma=dsigma), **zone._asdict(), "x": x}
-    return solved(loop, body, given, {"f": f, "E_star": E_star}, own)
+    return zone, solved(loop, body, given, {"f": f, "E_star": E_star}, own)
 
 
 def shear(
@@ -302,15 +302,13 @@ def shear(
     shape_of(numbers | numbers_of({"x": x}, {"f": f, "E_star": E_star, **own}))
     a, c, *loads = numbers.values()
     rise, fall = [2 * value for value in loads[:2]], loads[2:]
-    zones, changes = list[StickZone](), list[Array]()
-    for dQ, dsigma in (rise, fall):
-        zone = stick_zone(body, own, contact, contact, dQ, dsigma, f, E_star)
-        at = {**_between(contact, contact, dQ=dQ, dsigma=dsigma), **zone._asdict(), "x": x}
-        zones.append(zone)
-        changes.append(solved(each_shear_change, body, at, {"f": f, "E_star": E_star}, own))
+    (risen, up), (fallen, down) = (
+        _at_places(each_shear_change, body, own, x, contact, contact, dQ, dsigma, f, E_star)
+        for dQ, dsigma in (rise, fall)
+    )
     with np.errstate(all="ignore"):
-        known = rises_and_falls((a, c), rise, zones[0], fall, zones[1])
-        return np.where(known, changes[0] / 2 - changes[1], np.nan)[()]
+        known = rises_and_falls((a, c), rise, risen, fall, fallen)
+        return np.where(known, up / 2 - down, np.nan)[()]
 
 
 # ---------------------------------------------------------------- a cycle through time

@@ -40,7 +40,7 @@ from ..inverse import contact_at_tilt
 from ..kernels import kernel
 from ..search import between, narrowed
 from ..types import Regime
-from .cycles import drives
+from .cycles import drives, turning_width
 from .newton import log_step, moved
 from .quadrature import RULES, slip_zone
 
@@ -98,12 +98,6 @@ def slipping_in(cycle: Any, regime: float) -> Slipping:
         return slipping(cycle, 1.0, 1.0)
     kappa = math.copysign(1.0, cycle.dsigma)
     return slipping(cycle, kappa, -kappa)
-
-
-@kernel
-def turning_width(cycle: Any) -> float:
-    """The width of a stick zone at which slip is driven at one end only."""
-    return float(8 * cycle.dQ / (math.pi * abs(cycle.dsigma)))
 
 
 @kernel
@@ -181,7 +175,7 @@ def _newton(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -
         by_left, by_right = log_step(left, right, at_left, at_right, stuck)
         length = max(abs(by_left), abs(by_right))
         if length < NEWTON_RTOL + 16 * EPS * width / min(left, right, stuck):
-            if not stuck > turning_width(of.cycle):
+            if not stuck > turning_width(of.cycle.dQ, of.cycle.dsigma):
                 break
             return moved(width, left, right, by_left, by_right)
         part = min(1.0, LONGEST_STEP / length)
@@ -213,7 +207,7 @@ def _placed(law: Any, own: Any, of: Any, stuck: float, n: float, rule: int) -> A
 def _bracketed(law: Any, own: Any, of: Any, rule: int) -> Any:
     """Slip zones by the width of the stick zone, and whether slip reverses on one side."""
     width = of.a + of.c
-    stuck = max(turning_width(of.cycle), NARROWEST * width)
+    stuck = max(turning_width(of.cycle.dQ, of.cycle.dsigma), NARROWEST * width)
     if not stuck < width:
         return math.nan, math.nan, True
     n, part = _placed(law, own, of, stuck, math.nan, rule)

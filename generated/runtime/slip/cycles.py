@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from ..elementary import EPS
 from ..inverse import contact
-from ..kernels import kernel
+from ..kernels import kernel, shared
 
 MAX_EDGE_ROUNDING = 1e-6
 """Largest shift of an edge due to rounding of the tilt, relative to the width."""
@@ -108,6 +108,12 @@ def drives(cycle: Any, stuck: float) -> Any:
     """The drive of slip at both ends of a stick zone of given width."""
     by_tension = math.pi * stuck * cycle.dsigma / 8
     return cycle.dQ + by_tension, cycle.dQ - by_tension
+
+
+@shared
+def turning_width(dQ: float, dsigma: float) -> float:
+    """The width of a stick zone at which slip is driven at one end only."""
+    return 8 * dQ / (math.pi * abs(dsigma))
 
 
 @kernel

@@ -23,7 +23,7 @@ from ..arrays import solved
 from ..body import Body
 from ..forward import UNIT, each_contact
 from ..types import Array, Contact, Edges, March, Regime, StickZone
-from .locked import carries
+from .locked import LIMITED, carries
 from .zone import each_stick_zone, each_zone_of_regime
 
 MAX_LAST_STEP = 0.99
@@ -68,7 +68,7 @@ def marched(
     m, _, regime = solved(each_stick_zone, body, whole, constants, own, StickZone, ("regime",))
     refused, refusal = _refusal(way, loads, contact, f)
     regime = np.where(refused, refusal, regime)
-    for case in np.ndindex(regime.shape[:-1]):
+    for case in map(tuple, np.argwhere(np.isin(regime[..., 0], LIMITED))):
         parameters = {name: value[case][0] for name, value in own.items()}
         first, last = (load[(slice(None), *case, 0)] for load in (low, high))
         if not carries(body, parameters, f[case][0], first, last, regime[case][0]):

@@ -48,6 +48,7 @@ from ..body import Body
 from ..elementary import EPS
 from ..forward import UNIT, breaks_of, each_pressure
 from ..types import Array, Edges, Regime, StickZone
+from .cycles import turning_width
 from .quadrature import double_exponential
 from .zone import each_zone_of_regime
 
@@ -439,7 +440,7 @@ def _mixed_zone(
         p = solved(each_pressure, body, {"x": sense * x, **edges}, UNIT, own)
         return np.where(p < math.inf, 2 * f * p, 0.0)
 
-    cuts, H = sense * breaks_of(body, own), 8 * dQ / (np.pi * abs(dsigma))
+    cuts, H = sense * breaks_of(body, own), turning_width(dQ, dsigma)
     if sense < 0:
         a, c, moderate = c, a, moderate[::-1]
     m, n = _by_phases(_HalfCycle(limit, cuts, a, c, dQ, abs(dsigma), H))
@@ -457,16 +458,19 @@ def with_mixed(
     """
     shape = np.shape(zone.m)
     m, n, regime = (np.array(v).ravel() for v in zone)
-    at = {**cycle, "regime": Regime.MODERATE}
-    moderate = solved(each_zone_of_regime, body, at, {"f": f, **UNIT}, own, Edges)
-    values = {**cycle, "f": f, **moderate._asdict(), **own}
+    values = {**cycle, "f": f, "regime": Regime.MODERATE, **own}
     given = {name: np.broadcast_to(value, shape).ravel() for name, value in values.items()}
     steady = (given["a_1"] == given["a_2"]) & (given["c_1"] == given["c_2"])
     cases = np.flatnonzero((regime == Regime.MIXED) & np.isnan(m) & steady)
+    given = {name: value[cases] for name, value in given.items()}
+    own = {name: given.pop(name) for name in own}
+    constants: dict[str, Any] = {"f": given.pop("f"), **UNIT}
+    moderate = solved(each_zone_of_regime, body, given, constants, own, Edges)
+    given |= {"f": constants["f"], **moderate._asdict()}
     names = ("a_1", "c_1", "dQ", "dsigma", "f", "left", "right")
-    for case in cases:
-        parameters = {name: given[name][case] for name in own}
-        a, c, dQ, dsigma, f, *known = (given[name][case] for name in names)
+    for i, case in enumerate(cases):
+        parameters = {name: value[i] for name, value in own.items()}
+        a, c, dQ, dsigma, f, *known = (given[name][i] for name in names)
         m[case], n[case] = _mixed_zone(body, parameters, a, c, dQ, dsigma, f, known)
         regime[case] = Regime.UNSOLVED if math.isnan(m[case]) else Regime.MIXED
     return StickZone(*(v.reshape(shape)[()] for v in (m, n, regime)))

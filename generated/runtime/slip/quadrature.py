@@ -17,6 +17,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from ..kernels import kernel
+from .cycles import is_steady
 
 RULES = 5
 """Number of rules, the last one being the finest."""
@@ -56,7 +57,7 @@ _FIRST = np.cumsum([0, *(len(nodes) for nodes, _ in _ALL)])
 def pressures(law: Any, own: Any, cycle: Any, x: float) -> float:
     """p_1 + p_2; infinite at a corner."""
     p = law.pressure(x, cycle.a_1, cycle.c_1, own)
-    if cycle.a_1 == cycle.a_2 and cycle.c_1 == cycle.c_2:
+    if is_steady(cycle):
         return 2 * p
     return p + law.pressure(x, cycle.a_2, cycle.c_2, own)
 

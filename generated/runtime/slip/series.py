@@ -23,6 +23,7 @@ from typing import Any, NamedTuple
 
 from ..elementary import EPS
 from ..kernels import kernel, loop, opened
+from .cycles import Cycle, drives
 from .newton import log_step, moved
 
 MAX_NEWTON_STEPS = 40
@@ -150,15 +151,16 @@ def each_slip_zones(law: Any, given: Any, own: Any, out: Any) -> None:
     for i in range(given.shape[0]):
         row, body = given[i], own[i]
         a, c, da, dc, f = row[0], row[1], row[4], row[5], row[6]
-        dQ, dsigma, h = row[2] / row[7], row[3] / row[7], a + c
+        cycle = Cycle(a, c, a - da, c - dc, row[2] / row[7], row[3] / row[7], f)
+        dQ, dsigma, h = cycle.dQ, cycle.dsigma, a + c
         load, _, _, K, K_right = law.state(a, c, body)
-        load_2, _, _, K_2, K_right_2 = law.state(a - da, c - dc, body)
+        load_2, _, _, K_2, K_right_2 = law.state(cycle.a_2, cycle.c_2, body)
         out[i, :] = math.nan
         if not (0 <= dQ < f * (load + load_2) and math.isfinite(dsigma) and K > 0 and K_right > 0):
             continue
         L, L_right = law.series(a, c, body)
-        L_2, L_right_2 = law.series(a - da, c - dc, body)
-        drive, drive_2 = dQ + math.pi * h * dsigma / 8, dQ - math.pi * h * dsigma / 8
+        L_2, L_right_2 = law.series(cycle.a_2, cycle.c_2, body)
+        drive, drive_2 = drives(cycle, h)
         kappa, kappa_2 = -f if drive < 0 else f, -f if drive_2 < 0 else f
         at_left = Edge(K, L, K_2, L_2, kappa, da, drive)
         at_right = Edge(K_right, L_right, K_right_2, L_right_2, kappa_2, dc, drive_2)
