@@ -14,10 +14,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from derive.derivation import derive_sheet
-    from derive.geometry import Geometry, parameter
-    from derive.library import load_geometry
+    from derive.body.geometry import Geometry, parameter
+    from derive.body.library import load_geometry
     from derive.proof.prove import prove_sheet
+    from derive.sheet.derivation import derive_sheet
     from derive.symbols import x
 
 __all__ = [
@@ -30,11 +30,11 @@ __all__ = [
 ]
 
 _HOME = {
-    "Geometry": "derive.geometry",
-    "load_geometry": "derive.library",
-    "parameter": "derive.geometry",
+    "Geometry": "derive.body.geometry",
+    "load_geometry": "derive.body.library",
+    "parameter": "derive.body.geometry",
     "x": "derive.symbols",
-    "derive_sheet": "derive.derivation",
+    "derive_sheet": "derive.sheet.derivation",
     "prove_sheet": "derive.proof.prove",
 }
 

@@ -13,7 +13,7 @@ def main() -> None:
     before = signal.getsignal(signal.SIGINT)
     if before is signal.default_int_handler:  # else Ctrl-C is ignored, as in the background
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-    from derive.cli import main as command
+    from derive.command.cli import main as command
 
     signal.signal(signal.SIGINT, before)
     command()

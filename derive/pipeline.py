@@ -27,8 +27,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from derive.body import Body, by_form
-from derive.cache import key_of, program_as_loaded, program_digest, users_cache
+from derive.body.library import FOLDER, is_in_library, library, load_geometry
 from derive.codegen.publish import (
     FULL_STICK,
     RUNTIME,
@@ -38,11 +37,12 @@ from derive.codegen.publish import (
     package_files,
     publish,
 )
-from derive.errors import BadOutput, BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
-from derive.folder import demand_replaceable, remove_leftovers
-from derive.library import FOLDER, is_in_library, library, load_geometry
-from derive.limit import DEFAULT
-from derive.parallel import Bounds, Report, in_processes
+from derive.command.cache import key_of, program_as_loaded, program_digest, users_cache
+from derive.command.errors import BadOutput, BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
+from derive.command.folder import demand_replaceable, remove_leftovers
+from derive.command.limit import DEFAULT
+from derive.command.processes import Bounds, Report, in_processes
+from derive.sheet.built import Body, by_form
 
 GENERATED = Path(__file__).parent.parent / "generated"
 """The package under version control."""
@@ -73,8 +73,8 @@ def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Body
     from derive.codegen.module import full_stick_text, module_text
     from derive.codegen.printer import CannotPrint
     from derive.codegen.trial import demand_right
-    from derive.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
     from derive.proof.prove import prove_sheet
+    from derive.sheet.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
 
     began = perf_counter()
     report(source, STAGES[0])

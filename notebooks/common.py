@@ -22,8 +22,8 @@ if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
 from derive import plot  # noqa: E402
-from derive.paper.userfile import built_in as paper  # noqa: E402
-from derive.prose import prose  # noqa: E402
+from derive.check.userfile import built_in as paper  # noqa: E402
+from derive.sheet.prose import prose  # noqa: E402
 
 Array = Any
 

@@ -15,7 +15,7 @@ import nbformat
 from nbclient import NotebookClient
 from nbformat import NotebookNode
 
-from derive.files import write_whole
+from derive.command.files import write_whole
 from generated.runtime.kernels import COMPILING
 
 FOLDER = Path(__file__).parent

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from click.testing import CliRunner, Result
 
-from derive.cli import main
+from derive.command.cli import main
 
 ROOT = Path(__file__).parents[1]
 MODULE = (sys.executable, "-m", "derive")

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+import derive.command.terminal
 import derive.proof.verdict
-import derive.terminal
-from derive.cache import VARIABLE
+from derive.command.cache import VARIABLE
 
 settings.register_profile("ci", derandomize=True, deadline=None)
 settings.load_profile("ci")
@@ -109,7 +109,7 @@ def empty_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Mo
 @pytest.fixture(autouse=True)
 def patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """No line about work that takes long, however slow the machine is."""
-    monkeypatch.setattr(derive.terminal, "PATIENCE", 600.0)
+    monkeypatch.setattr(derive.command.terminal, "PATIENCE", 600.0)
 
 
 @pytest.fixture

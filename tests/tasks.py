@@ -9,10 +9,10 @@ from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from derive.body import Body
-from derive.cache import Cache
-from derive.errors import BadUnit, NotProven, UnknownGeometry
-from derive.parallel import Report
+from derive.command.cache import Cache
+from derive.command.errors import BadUnit, NotProven, UnknownGeometry
+from derive.command.processes import Report
+from derive.sheet.built import Body
 
 KEY = "0" * 64
 

@@ -95,31 +95,37 @@ def test_a_module_of_the_theory_imports_only_those_above_it(name: str) -> None:
     assert inside(imported(name), "derive.theory") <= set(above)
 
 
+# What only users see; nothing but the commands themselves imports it.
+FRONT = tuple(f"derive.command.{name}" for name in ("cli", "showing", "terminal", "view"))
+
 # What the packages and modules on the left never import, at any level.
 NEVER = {
-    "derive.theory": (
-        *("derive.proof", "derive.sheet", "derive.derivation", "derive.codegen"),
-        *("derive.pipeline", "derive.view", "derive.cli", "derive.library", "derive.writing"),
-    ),
-    "derive.proof": (
-        *("derive.codegen", "derive.pipeline", "derive.view", "derive.cli", "derive.writing"),
-    ),
-    "derive.sheet": ("derive.codegen", "derive.pipeline", "derive.view", "derive.cli"),
-    "derive.derivation": ("derive.codegen", "derive.pipeline", "derive.view", "derive.cli"),
-    "derive.geometry": ("derive.theory", "derive.proof", "derive.sheet", "derive.codegen"),
-    "derive.profile": ("derive.theory", "derive.proof", "derive.sheet", "derive.codegen"),
-    "derive.codegen": ("derive.pipeline", "derive.view", "derive.cli"),
-    "derive.paper": ("derive.cli", "derive.view", "derive.codegen"),
-    "derive.handbook": ("derive.cli", "derive.view"),
-    "derive.geometries": ("derive.theory", "derive.proof", "derive.codegen", "numpy"),
-    "derive.pipeline": ("derive.view", "derive.cli", "click", "rich"),
-    "derive.plot": (
-        *("derive.theory", "derive.proof", "derive.sheet", "derive.derivation", "derive.geometry"),
-        *("derive.codegen", "derive.pipeline", "derive.view", "derive.cli", "derive.paper"),
-        *("derive.library", "derive.writing", "sympy", "mpmath", "click", "rich"),
-    ),
     "derive.symbols": ("derive",),
-    "derive.errors": ("derive", "sympy", "click", "rich"),
+    "derive.command.errors": ("derive", "sympy", "click", "rich"),
+    "derive.geometries": ("derive.theory", "derive.proof", "derive.codegen", "numpy"),
+    "derive.body": (
+        *("derive.theory", "derive.proof", "derive.sheet", "derive.codegen", "derive.check"),
+        *("derive.pipeline", *FRONT),
+    ),
+    "derive.reading": (
+        *("derive.theory", "derive.proof", "derive.sheet.formulas", "derive.sheet.derivation"),
+        *("derive.codegen", "derive.check", "derive.pipeline", *FRONT),
+    ),
+    "derive.theory": (
+        *("derive.proof", "derive.sheet", "derive.codegen", "derive.pipeline"),
+        *("derive.body.library", "derive.reading", *FRONT),
+    ),
+    "derive.sheet": ("derive.codegen", "derive.pipeline", "derive.check", *FRONT),
+    "derive.proof": ("derive.codegen", "derive.pipeline", "derive.check", *FRONT),
+    "derive.codegen": ("derive.pipeline", "derive.check", *FRONT),
+    "derive.check": ("derive.codegen", *FRONT),
+    "derive.handbook": FRONT,
+    "derive.pipeline": (*FRONT, "click", "rich"),
+    "derive.plot": (
+        *("derive.body", "derive.reading", "derive.theory", "derive.sheet", "derive.proof"),
+        *("derive.codegen", "derive.check", "derive.pipeline", *FRONT),
+        *("sympy", "mpmath", "click", "rich"),
+    ),
     "derive": ("tests",),
     "generated": ("derive", "sympy", "mpmath", "tests"),
 }
@@ -135,11 +141,11 @@ def test_data_flows_one_way(package: str) -> None:
 
 # Who alone may import what stands on the left.
 USERS = {
-    "derive.paper": {"derive.paper", "derive.cli", "derive.view"},
-    "derive.handbook": {"derive.handbook", "derive.cli", "derive.showing"},
+    "derive.check": {"derive.check", "derive.command.cli", "derive.command.view"},
+    "derive.handbook": {"derive.handbook", "derive.command.cli", "derive.command.showing"},
     "derive.plot": {"derive.plot"},
-    "click": {"derive.cli", "derive.showing", "derive.terminal"},
-    "rich": {"derive.showing", "derive.terminal", "derive.view"},
+    "click": {"derive.command.cli", "derive.command.showing", "derive.command.terminal"},
+    "rich": {"derive.command.showing", "derive.command.terminal", "derive.command.view"},
     "matplotlib": {"derive.plot"},
     "ipywidgets": {"derive.plot"},
     "numba": {"generated.runtime"},
@@ -251,5 +257,7 @@ def lines_of_all_files() -> Iterator[tuple[str, str]]:
 
 def test_no_file_holds_a_path_of_a_machine_or_names_a_package_registry() -> None:
     seen = [*lines_of_all_files()]
-    assert {"pyproject.toml", "derive/cli.py", "generated/wedge.py"} <= {name for name, _ in seen}
+    assert {"pyproject.toml", "derive/pipeline.py", "generated/wedge.py"} <= {
+        name for name, _ in seen
+    }
     assert [(n, t) for n, t in seen if MACHINE.search(t) or REGISTRIES.search(t)] == []

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from derive.derivation import derive_sheet
-from derive.library import load_geometry
-from derive.paper.claim import Verdict
-from derive.paper.userfile import read_claims
+from derive.body.library import load_geometry
+from derive.check.claim import Verdict
+from derive.check.userfile import read_claims
+from derive.sheet.derivation import derive_sheet
 
 CLAIMS = (Path(__file__).parents[1] / "docs" / "claims.md").read_text()
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from derive.library import library
+from derive.body.library import library
 
 HOMES = ("derive", "derive.plot", "generated.edge", *(f"generated.{name}" for name in library()))
 

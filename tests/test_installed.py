@@ -9,9 +9,9 @@ import pytest
 from click.testing import CliRunner
 
 import derive.pipeline
-from derive.cli import main
-from derive.errors import MissingLibrary
-from derive.library import library
+from derive.body.library import library
+from derive.command.cli import main
+from derive.command.errors import MissingLibrary
 
 ROOT = Path(__file__).parents[1]
 

@@ -12,8 +12,8 @@ from sympy import Expr, Float, Symbol, diff
 from sympy.core.function import AppliedUndef
 
 from derive import symbols as ours
-from derive.mathml import mathml
 from derive.reading.improper import proper
+from derive.sheet.mathml import mathml
 from derive.theory.moments import full_moment, slope_moment
 from generated import hertz
 from tests.derive.bodies import of_library

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
-import derive.cache
+import derive.command.cache
 import derive.pipeline
-from derive.body import Body
-from derive.cache import users_cache
-from derive.errors import NotProven
-from derive.library import FOLDER, library
-from derive.parallel import Report
+from derive.body.library import FOLDER, library
+from derive.command.cache import users_cache
+from derive.command.errors import NotProven
+from derive.command.processes import Report
 from derive.pipeline import DONE, KEPT, STAGES, build_all
 from derive.proof.verdict import Verdict
+from derive.sheet.built import Body
 
 ROOT = Path(__file__).parents[1]
 
@@ -56,7 +56,9 @@ def files(tmp_path: Path) -> list[str]:
 
 WITHOUT_SYMPY = """
 import sys
-from derive import body, cache, library, parallel
+from derive.body import library
+from derive.command import cache, processes
+from derive.sheet import built
 for name in library.library():
     assert cache.key_of(library.FOLDER / f"{name}.py", name, cache.program_as_loaded())
 cache.users_cache().get("0" * 64)

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from derive.cli import main
-from derive.library import library, load_geometry
+from derive.body.library import library, load_geometry
+from derive.command.cli import main
 
 ROOT = Path(__file__).parents[1]
 SITE = ROOT / "docs" / "site"
@@ -48,7 +48,7 @@ def test_the_table_of_bodies_leads_to_their_pages() -> None:
 
 
 def test_the_handbook_has_a_page_with_every_formula_of_a_body() -> None:
-    from derive.derivation import derive_sheet
+    from derive.sheet.derivation import derive_sheet
     from tests.derive.handbook.test_handbook import body_of
 
     pages = module("pages")

@@ -7,11 +7,11 @@ from subprocess import CompletedProcess
 
 import pytest
 
-from derive.body import Body
-from derive.cache import key_of, program_as_loaded, users_cache
-from derive.library import FOLDER
+from derive.body.library import FOLDER
+from derive.command.cache import key_of, program_as_loaded, users_cache
 from derive.pipeline import GENERATED
 from derive.proof.verdict import Verdict
+from derive.sheet.built import Body
 from tests.commands import MODULE, real
 
 pytestmark = [

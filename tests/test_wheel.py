@@ -70,7 +70,7 @@ def run(installed: Path, folder: Path, *arguments: str) -> "subprocess.Completed
 
 
 def derive(installed: Path, folder: Path, line: str) -> "subprocess.CompletedProcess[str]":
-    main = "import sys; from derive.cli import main; sys.argv[0] = 'derive'; main()"
+    main = "import sys; from derive.command.cli import main; sys.argv[0] = 'derive'; main()"
     return run(installed, folder, "-c", main, *shlex.split(line))
 
 

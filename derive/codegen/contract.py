@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from sympy import Expr, Gt, Symbol
 from sympy.logic.boolalg import Boolean
 
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, x
 
 

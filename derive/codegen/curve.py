@@ -30,10 +30,10 @@ from sympy import (
     tanh,
 )
 
+from derive.body.piece import Piece
 from derive.codegen.cuts import cuts_of
 from derive.codegen.law import PRESSURE, STATE, LawText, as_float
 from derive.codegen.printer import NumPyPrinter
-from derive.piece import Piece
 from derive.symbols import x
 
 Steps = list[tuple[Symbol, Expr]]

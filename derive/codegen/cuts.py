@@ -24,8 +24,8 @@ from sympy import (
     simplify,
 )
 
-from derive.piece import Piece
-from derive.profile import Slope, breaks_of, lies_in
+from derive.body.piece import Piece
+from derive.body.profile import Slope, breaks_of, lies_in
 from derive.symbols import x
 
 HARMLESS = 1
@@ -39,7 +39,7 @@ def cancels(slope: Slope) -> bool:
     """Whether powers of x in the closed formulas may nearly cancel, so that digits are lost.
 
     >>> from sympy import symbols
-    >>> from derive.profile import read_slope
+    >>> from derive.body.profile import read_slope
     >>> b = symbols("b", positive=True)
     >>> [cancels(read_slope("", g)) for g in (x**4 / b**3, (x - b) ** 4 / b**3)]
     [False, True]
@@ -70,7 +70,7 @@ def cuts_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
     """The points at which quadrature cuts the body, and the pieces between them.
 
     >>> from sympy import symbols
-    >>> from derive.profile import read_slope
+    >>> from derive.body.profile import read_slope
     >>> b = symbols("b", positive=True)
     >>> cuts_of(read_slope("", (x - b) ** 4 / b**3))[0]
     (b,)

@@ -21,13 +21,13 @@ from derive.codegen.contract import Function
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import LEAST, MOST, Program
 from derive.codegen.rewrite import demand_equal, stable_program
-from derive.errors import NotProven
-from derive.notation import text_of
+from derive.command.errors import NotProven
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.proof.verdict import Proof, Verdict
-from derive.sheet import FormulaSheet
+from derive.reading.units import Dimension, dimension_of
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import text_of
 from derive.symbols import QUANTITIES, E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
-from derive.units import Dimension, dimension_of
 
 LINE = 100
 

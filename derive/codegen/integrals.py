@@ -28,12 +28,12 @@ from sympy import (
     sqrt,
 )
 
+from derive.body.piece import Piece
+from derive.body.profile import Kink
 from derive.codegen.function import FunctionText, by_name, local
 from derive.codegen.program import Program
-from derive.notation import text_of
-from derive.piece import Piece
-from derive.profile import Kink
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import text_of
 from derive.symbols import E_star, P, a, c, h, x
 from derive.theory.segments import root_ratio
 from derive.theory.superposition import xi
@@ -80,8 +80,8 @@ class Integrals:
     def formula(self, name: str) -> Expr:
         """The expression that is evaluated for a formula of the sheet.
 
-        >>> from derive.derivation import derive_sheet
-        >>> from derive.library import load_geometry
+        >>> from derive.sheet.derivation import derive_sheet
+        >>> from derive.body.library import load_geometry
         >>> Integrals(derive_sheet(load_geometry("catenary"))).formula("load")
         E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2
         """

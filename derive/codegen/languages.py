@@ -47,8 +47,8 @@ from sympy.printing.octave import OctaveCodePrinter
 from derive.codegen import contract
 from derive.codegen.contract import CONTRACT
 from derive.codegen.program import Program, Step
-from derive.errors import NoSuchName
-from derive.sheet import FormulaSheet
+from derive.command.errors import NoSuchName
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import M, P, a, c, e, x
 
 _ELEMENTARY = (

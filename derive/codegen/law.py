@@ -11,7 +11,7 @@ from sympy import Expr, Lt, Piecewise, S, count_ops, diff, expand, factor
 
 from derive.codegen.function import local
 from derive.codegen.printer import NumPyPrinter
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import x
 
 NAMES = ("pressure", "state", "slope", "series", "breaks")

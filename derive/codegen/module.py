@@ -22,8 +22,8 @@ from derive.codegen.parts import SummedText, angles_text, definitions_text
 from derive.codegen.plan import Route, carried_by, route_of
 from derive.codegen.publish import FULL_STICK
 from derive.codegen.solved import solved_functions
-from derive.notation import text_of
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import text_of
 from derive.theory.segments import FUNCTIONS
 
 _KINDS = (

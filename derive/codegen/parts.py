@@ -17,9 +17,9 @@ from derive.codegen.function import FunctionText, checks_of, printer_of, step_li
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program, Step
 from derive.codegen.rewrite import demand_equal
-from derive.notation import text_of
 from derive.proof.points import contacts
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import text_of
 from derive.symbols import a, c
 from derive.theory.frame import Frame
 from derive.theory.segments import Parts, definitions_of
@@ -32,8 +32,8 @@ def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
 
     Raises NotProven if the program does not agree with the sheet.
 
-    >>> from derive.derivation import derive_sheet
-    >>> from derive.library import load_geometry
+    >>> from derive.sheet.derivation import derive_sheet
+    >>> from derive.body.library import load_geometry
     >>> sheet = derive_sheet(load_geometry("flat_rounded"))
     >>> parts_program(sheet, {"": "load"}).outputs[""]
     E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)

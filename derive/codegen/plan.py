@@ -16,7 +16,7 @@ from enum import Enum
 
 from derive.codegen.contract import Function
 from derive.codegen.cuts import cancels
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import P
 from derive.theory.segments import has_parts
 

@@ -13,9 +13,9 @@ from difflib import unified_diff
 from pathlib import Path
 
 from derive.codegen.mark import MARK
-from derive.errors import BadOutput
-from derive.folder import replace_folder
-from derive.manifest import entries, with_manifest
+from derive.command.errors import BadOutput
+from derive.command.folder import replace_folder
+from derive.command.manifest import entries, with_manifest
 
 RUNTIME = "runtime"
 """The folder of the library."""

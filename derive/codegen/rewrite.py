@@ -39,12 +39,12 @@ from sympy import (
     together,
 )
 
+from derive.body.piece import vanishes
 from derive.codegen.program import Kept, Program, Step
-from derive.errors import NotProven
-from derive.piece import vanishes
+from derive.command.errors import NotProven
 from derive.proof.points import Point, named, numeric, numeric_by_steps
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import M, P, a, alpha, c, e, h, w, x
 from derive.theory.frame import KinkFrame
 from derive.theory.ring import factored

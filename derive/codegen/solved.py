@@ -19,7 +19,7 @@ from derive.codegen.function import (
     meaning_of,
 )
 from derive.proof.points import Point, numeric
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, a, c
 
 TEMPLATE = Path(__file__).with_name("solved.txt")

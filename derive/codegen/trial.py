@@ -25,9 +25,9 @@ from mpmath import mpf
 
 from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.publish import FULL_STICK, LIBRARY
-from derive.errors import NotProven
+from derive.command.errors import NotProven
 from derive.proof.points import Point, contacts, named, numeric
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c
 
 TOLERANCE = 1e-10

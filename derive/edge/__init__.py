@@ -13,7 +13,7 @@ instance.
 from pathlib import Path
 
 import generated.runtime
-from derive.errors import OtherRuntime
+from derive.command.errors import OtherRuntime
 
 VERSION = 1
 """The version of generated/runtime that this package needs."""

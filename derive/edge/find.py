@@ -9,8 +9,8 @@ from math import hypot, nan
 
 import numpy as np
 
+from derive.command.errors import BadTable
 from derive.edge.table import Step
-from derive.errors import BadTable
 from generated.runtime.edge import (
     PressureFit,
     ShearFit,

@@ -8,10 +8,10 @@ from math import floor, isfinite, log10
 
 import numpy as np
 
+from derive.command.terminal import folded
 from derive.edge.find import SIDES, Findings, FittedEdge
 from derive.edge.table import Step
-from derive.prose import prose
-from derive.terminal import folded
+from derive.sheet.prose import prose
 
 HEAD = ("load step", "edge", "x [mm]", "K_N [MPa/sqrt(mm)]", "L_N [MPa/mm**(3/2)]", "nodes")
 ZONES = (

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from derive.errors import BadTable
-from derive.files import Unreadable, bytes_of
+from derive.command.errors import BadTable
+from derive.command.files import Unreadable, bytes_of
 
 LARGEST = 20_000_000
 """The largest size of a file, in bytes."""

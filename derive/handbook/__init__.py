@@ -13,7 +13,7 @@ is downloaded when it is viewed.
 
 from importlib.util import find_spec
 
-from derive.errors import MissingLibrary
+from derive.command.errors import MissingLibrary
 
 for _library in ("jinja2", "latex2mathml"):
     if find_spec(_library) is None:

@@ -12,13 +12,13 @@ import numpy as np
 from markupsafe import Markup
 from mpmath import mpf
 
-from derive.body import Body
+from derive.body.compiled import compiled
 from derive.codegen.function import example_of
 from derive.codegen.trial import imported
-from derive.compiled import compiled
 from derive.handbook.picture import Line, sketch, svg
 from derive.proof.points import holds
-from derive.sheet import FormulaSheet
+from derive.sheet.built import Body
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, a, c, x
 
 SAMPLES = 241

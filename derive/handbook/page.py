@@ -11,14 +11,14 @@ from pygments import highlight
 from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer
 
-from derive.body import Body
-from derive.errors import NotProven
+from derive.command.errors import NotProven
 from derive.handbook.curves import pictures, profile
-from derive.mathml import mathml
-from derive.notation import latex_of
 from derive.proof.verdict import Verdict
-from derive.prose import prose, unit
-from derive.sheet import FormulaSheet
+from derive.sheet.built import Body
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.mathml import mathml
+from derive.sheet.notation import latex_of
+from derive.sheet.prose import prose, unit
 
 SHOWN = 40
 """Number of lines above which the code of a module is collapsed."""

@@ -18,7 +18,7 @@ into the Axes that are passed in, or into new ones, and returns them.
 
 from importlib.util import find_spec
 
-from derive.errors import MissingLibrary
+from derive.command.errors import MissingLibrary
 
 if find_spec("matplotlib") is None:
     raise MissingLibrary("matplotlib", "drawing", "plot")

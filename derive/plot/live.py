@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from derive.errors import MissingLibrary
+from derive.command.errors import MissingLibrary
 from derive.plot.measure import Array, unit
 from derive.plot.style import COLOURS, FORWARD, REVERSE, style
 from derive.plot.tractions import peak

@@ -21,7 +21,7 @@ from mpmath.libmp import from_man_exp
 from sympy import Expr, Float, Piecewise, Pow, Rational, S, Symbol
 from sympy.printing.pycode import MpmathPrinter
 
-from derive.compiled import compiled
+from derive.body.compiled import compiled
 
 Ball = arb
 

@@ -17,7 +17,7 @@ from derive.proof.points import Point, contacts, loads, named, numeric, numeric_
 from derive.proof.quadrature import Contact
 from derive.proof.rule import Function, remembered
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
-from derive.sheet import Formula, FormulaSheet
+from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, f, w, x
 
 _QUADRATURE = "quadrature of the defining integral of g(x)"

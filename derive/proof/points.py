@@ -17,13 +17,13 @@ from mpmath import mpf
 from sympy import Add, Dummy, Expr, Integral, Mul, Piecewise, Pow, Symbol, count_ops
 from sympy.logic.boolalg import Boolean
 
-from derive.compiled import compiled
-from derive.geometry import Geometry
-from derive.profile import has_sharp_power
+from derive.body.compiled import compiled
+from derive.body.geometry import Geometry
+from derive.body.profile import has_sharp_power
 from derive.proof.balls import Ball, ball, digits, function_of, functions_of
 from derive.proof.rule import Function, integral, remembered
 from derive.proof.verdict import POINTS
-from derive.sheet import Formula, FormulaSheet
+from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
 
 Point = dict[Symbol, mpf]

@@ -9,7 +9,7 @@ from derive.proof.numerical import NumericalRoutes
 from derive.proof.points import contacts, named, numeric, numeric_by_steps
 from derive.proof.symbolic import symbolic_proof
 from derive.proof.verdict import WORKING, Comparison, Proof, Verdict, combined, numerical_proof
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
 from derive.theory.segments import Parts, written_out
 
 
@@ -30,8 +30,8 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
 
     Examples
     --------
-    >>> from derive.derivation import derive_sheet
-    >>> from derive.library import load_geometry
+    >>> from derive.sheet.derivation import derive_sheet
+    >>> from derive.body.library import load_geometry
     >>> sheet = derive_sheet(load_geometry("hertz"))
     >>> proven = prove_sheet(sheet)
     >>> all(formula.proof.holds for formula in proven.values())

@@ -15,8 +15,8 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Max, Min, Piecewise, Symbol, diff, nan, piecewise_fold, zoo
 
-from derive.compiled import compiled
-from derive.geometry import Geometry
+from derive.body.compiled import compiled
+from derive.body.geometry import Geometry
 from derive.proof.balls import Ball, ball, digits, function_of
 from derive.proof.rule import CROWDED, SMOOTH, Function, integral, remembered
 from derive.symbols import x

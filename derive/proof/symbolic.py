@@ -32,7 +32,7 @@ from sympy import (
 )
 
 from derive.proof.verdict import Proof, Verdict
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, P, a, c, dM, dP, e, f, h, mid, s, w, x
 from derive.theory.algebra import is_zero
 from derive.theory.frame import Frame, KinkFrame

@@ -11,7 +11,14 @@
     formula    formula of a claims file     an equation, a condition or a limit
     improper                                principal values, and integrals to infinity
     relation                                the relation between the two sides of an equation
+    units                                   units and dimensions of expressions
+    lengths    SymPy expression             the unit of each parameter, because g is a length
+    dimensions equation, known units        the term whose units do not fit
+    displays   LaTeX file                   its displays, numbered as LaTeX numbers them
+    statements display                      its equations, each with its condition
+    spellings  equation in LaTeX            its symbols, and proposals for their meanings
+    latex      equation in LaTeX            an equation as text, if only one reading is possible
 
-If a text is refused, the message (`derive.errors.BadText` or `BadFormula`) shows it with a caret
-under the mistake.
+If a text is refused, the message (`BadText` or `BadFormula` of derive.command.errors) shows it with
+a caret under the mistake.
 """

@@ -23,7 +23,7 @@ from sympy import Derivative, Expr, Integral, Limit, S, Sum, Symbol, oo
 from sympy import Function as SymPyFunction
 from sympy.logic.boolalg import Boolean
 
-from derive.errors import BadFormula, BadText
+from derive.command.errors import BadFormula, BadText
 from derive.reading.improper import PrincipalValue, ToInfinity
 from derive.reading.limits import fault
 from derive.reading.relation import Relation

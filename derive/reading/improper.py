@@ -5,7 +5,7 @@ from typing import Any
 from sympy import Expr, Function, Integral, Min, Mul, Symbol, degree, denom, oo, solve, together
 from sympy.printing.latex import LatexPrinter
 
-from derive.errors import BadFormula
+from derive.command.errors import BadFormula
 
 FROM_POLE = "_from_pole"
 """Suffix of the variable of a folded principal value, whose upper end must be positive."""

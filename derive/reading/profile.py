@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 from sympy import Expr, Symbol
 
-from derive.errors import BadName
-from derive.geometry import parameter
+from derive.body.geometry import parameter
+from derive.command.errors import BadName
 from derive.reading.tree import Tree, parse
 from derive.reading.value import Meaning
 from derive.reading.words import FUNCTIONS_OF_PROFILES, Words

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from derive.errors import BadText
+from derive.command.errors import BadText
 from derive.reading.tokens import END, NAME, NUMBER, OPERATOR, Token, tokens
 from derive.reading.words import KEYWORDS, LOGICAL, PI, TRUE, Words, refusal
 

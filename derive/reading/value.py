@@ -10,7 +10,7 @@ from typing import Any
 from sympy import Expr, Piecewise, Rational, pi, true
 from sympy.logic.boolalg import Boolean
 
-from derive.errors import BadText
+from derive.command.errors import BadText
 from derive.reading.limits import STEEPEST, fault, reach
 from derive.reading.tree import Tree
 from derive.reading.words import PI, refusal

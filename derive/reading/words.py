@@ -12,13 +12,13 @@ from typing import Any
 import sympy
 from sympy import Expr
 
-from derive.errors import BadText
+from derive.command.errors import BadText
 
 MANY = 20
 """The largest number of arguments of a function."""
 
 Switches = list[tuple[str, Expr]]
-"""Expressions at whose zeros a function is not smooth, each with its kind in derive.paper.kinks."""
+"""Expressions at whose zeros a function is not smooth, each with its kind in derive.check.kinks."""
 
 
 def _smooth(*_: Expr) -> Switches:

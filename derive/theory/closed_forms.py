@@ -29,8 +29,8 @@ from sympy import (
     sqrt,
 )
 
-from derive.limit import LookAtClock
-from derive.profile import exact
+from derive.body.profile import exact
+from derive.command.limit import LookAtClock
 from derive.symbols import E_star, a, c, h, mid, x
 from derive.theory.algebra import tidy
 from derive.theory.frame import Frame

@@ -21,7 +21,7 @@ from functools import cached_property
 
 from sympy import Abs, Add, Expr, Max, Mul, S, Symbol, atan2, diff, expand, log, sqrt, symbols
 
-from derive.profile import Kink, Slope
+from derive.body.profile import Kink, Slope
 from derive.symbols import a, c, h, w, x
 
 _FEW_TERMS = 5

@@ -45,7 +45,7 @@ from sympy import (
 )
 from sympy.printing.latex import LatexPrinter
 
-from derive.piece import Piece
+from derive.body.piece import Piece
 from derive.symbols import E_star, a, c, x
 from derive.theory.edges import Edge
 from derive.theory.frame import Frame, KinkFrame

@@ -18,7 +18,7 @@ from collections.abc import Callable
 
 from sympy import Abs, Expr, Integral, Max, Min, Piecewise, Rational, S, Symbol, log, oo, pi, sqrt
 
-from derive.piece import Piece
+from derive.body.piece import Piece
 from derive.symbols import E_star, a, c, h, mid, x
 from derive.theory.edges import Edge
 from derive.theory.frame import Frame, KinkFrame

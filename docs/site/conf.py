@@ -12,7 +12,7 @@ from pathlib import Path
 from docutils import nodes
 from sphinx.application import Sphinx
 
-from derive.mathml import mathml
+from derive.sheet.mathml import mathml
 
 sys.path.insert(0, str(Path(__file__).parent))
 

@@ -12,7 +12,7 @@ from html import unescape
 from itertools import groupby
 from textwrap import dedent
 
-from derive.prose import prose
+from derive.sheet.prose import prose
 
 _CODE = re.compile(r"``(.+?)``|`([^`]+)`")
 _SPECIAL = re.compile(r"<(su[bp])>(.*?)</su[bp]>|([\\*|`]|(?<=\w)_(?!\w))")

@@ -9,8 +9,8 @@ from types import SimpleNamespace
 from sympy import Expr, Function, Integral, S, Symbol, oo, pi, sqrt, symbols
 
 from derive import symbols as theory
-from derive.notation import latex_of
 from derive.reading.improper import PrincipalValue
+from derive.sheet.notation import latex_of
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, f, m, n, s, x
 from derive.theory import slip, stick, superposition
 from derive.theory.superposition import xi

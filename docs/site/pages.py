@@ -15,18 +15,18 @@ from pathlib import Path
 from sympy import together
 
 from derive import symbols
-from derive.body import Body
-from derive.derivation import derive_sheet
+from derive.body.library import library, load_geometry
+from derive.command.limit import DEFAULT
+from derive.command.processes import cores
+from derive.command.showing import sheets_of
 from derive.handbook.curves import profile
 from derive.handbook.page import figures
-from derive.library import library, load_geometry
-from derive.limit import DEFAULT
-from derive.notation import latex_of
-from derive.parallel import cores
 from derive.pipeline import build_all
-from derive.prose import prose, unit
-from derive.sheet import FormulaSheet
-from derive.showing import sheets_of
+from derive.sheet.built import Body
+from derive.sheet.derivation import derive_sheet
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import latex_of
+from derive.sheet.prose import prose, unit
 from derive.symbols import QUANTITIES
 
 sys.path.insert(0, str(Path(__file__).parent))

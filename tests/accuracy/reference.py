@@ -8,9 +8,9 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, lambdify
 
-from derive.derivation import derive_sheet
-from derive.library import load_geometry
-from derive.sheet import FormulaSheet
+from derive.body.library import load_geometry
+from derive.sheet.derivation import derive_sheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import M, P, e
 
 Given = Mapping[str, mpf]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from sympy import And, Expr, lambdify
 
-from derive.sheet import FormulaSheet
+from derive.sheet.formulas import FormulaSheet
 from generated.runtime.types import Contact, Regime
 
 Sample = Mapping[str, Any]

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import click
 
-from derive.library import library
-from derive.parallel import Report, cores, in_processes
+from derive.body.library import library
+from derive.command.processes import Report, cores, in_processes
 from tests.accuracy.measure import BOUNDS, CATALOGUE, EXACT, EXPLICIT, Worst, worst_of
 from tests.accuracy.regions import REGIONS
 

@@ -9,8 +9,8 @@ from sympy import Expr
 from derive import Geometry
 from derive.codegen.module import module_text
 from derive.codegen.trial import imported
-from derive.derivation import derive_sheet
 from derive.pipeline import GENERATED
+from derive.sheet.derivation import derive_sheet
 from tests.derive.bodies import assumed
 
 STUCK = (GENERATED / "full_stick.py").read_text(encoding="utf-8")

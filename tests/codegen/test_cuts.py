@@ -4,9 +4,9 @@ import pytest
 from sympy import Abs, Expr, Max
 
 from derive import Geometry, parameter, x
+from derive.body.library import library, load_geometry
+from derive.body.profile import Slope
 from derive.codegen.cuts import cancels, cuts_of
-from derive.library import library, load_geometry
-from derive.profile import Slope
 
 pytestmark = pytest.mark.slow
 

@@ -13,8 +13,8 @@ from derive import Geometry, parameter, x
 from derive.codegen.contract import CONTRACT
 from derive.codegen.integrals import FinitePart, Integrals, curvature
 from derive.codegen.plan import Route, route_of
-from derive.derivation import derive_sheet
 from derive.proof.points import Point, numeric
+from derive.sheet.derivation import derive_sheet
 from derive.symbols import E_star, P, a, c
 from derive.theory.superposition import xi
 

@@ -16,7 +16,7 @@ from sympy import Abs, Max, exp
 
 from derive import Geometry, derive_sheet, parameter, x
 from derive.codegen.languages import LANGUAGES, code_of
-from derive.errors import NoSuchName
+from derive.command.errors import NoSuchName
 from tests.derive.bodies import of_library
 
 BODIES = {  # parameters in the order of their names

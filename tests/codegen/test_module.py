@@ -21,17 +21,17 @@ from sympy import (
 
 import derive.codegen.function
 from derive import Geometry, parameter, x
+from derive.body.library import load_geometry
 from derive.codegen.function import example_of
 from derive.codegen.module import _HELPERS, module_text
 from derive.codegen.trial import demand_right
-from derive.derivation import derive_sheet
-from derive.errors import BadName, NotProven
-from derive.library import load_geometry
-from derive.notation import text_of
+from derive.command.errors import BadName, NotProven
 from derive.pipeline import GENERATED
 from derive.proof.points import loads
 from derive.proof.verdict import POINTS, Proof, Verdict
-from derive.sheet import FormulaSheet
+from derive.sheet.derivation import derive_sheet
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import text_of
 from derive.symbols import RESERVED, a, c
 from generated import hertz
 from tests.codegen.made import STUCK, module_of, text_of_body

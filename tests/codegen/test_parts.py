@@ -15,11 +15,11 @@ from derive import Geometry, parameter
 from derive.codegen.parts import common_steps, definitions_text, parts_program
 from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
-from derive.derivation import derive_sheet
-from derive.errors import NotProven
-from derive.notation import text_of
+from derive.command.errors import NotProven
 from derive.proof.points import Point, holds, numeric
-from derive.sheet import FormulaSheet
+from derive.sheet.derivation import derive_sheet
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import text_of
 from derive.symbols import E_star, a, c, x
 from derive.theory.segments import Parts
 from generated.runtime import elementary, kernels, segments

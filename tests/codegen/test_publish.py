@@ -14,9 +14,9 @@ import pytest
 
 from derive.codegen.mark import MARK
 from derive.codegen.publish import RUNTIME, differences, modules_in, package_files, publish
-from derive.errors import BadOutput
-from derive.folder import demand_replaceable, in_use
-from derive.manifest import MANIFEST
+from derive.command.errors import BadOutput
+from derive.command.folder import demand_replaceable, in_use
+from derive.command.manifest import MANIFEST
 from derive.pipeline import GENERATED
 
 OLD = package_files({"cylinder": f"{MARK}\nold = 1\n", "wedge": f"{MARK}\nwedge = 1\n"})
@@ -206,7 +206,7 @@ def failing(
 @pytest.fixture
 def in_two_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     """A system that cannot exchange two directories in one step."""
-    monkeypatch.setattr("derive.folder._exchanged", lambda *_: False)
+    monkeypatch.setattr("derive.command.folder._exchanged", lambda *_: False)
 
 
 @pytest.mark.usefixtures("in_two_steps")
@@ -235,7 +235,7 @@ def test_a_failure_or_ctrl_c_in_the_middle_leaves_the_old_package(
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from derive import folder
+from derive.command import folder
 from derive.codegen.publish import publish
 from tests.codegen.test_publish import NEW
 real = folder._put_in_place

@@ -15,14 +15,14 @@ from mpmath import mpf
 from sympy import Abs, Expr, Piecewise, Rational, Symbol, atan2, lambdify, nan, pi, tan
 
 from derive import Geometry
+from derive.body.library import load_geometry
 from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.function import FunctionText
 from derive.codegen.program import Program
 from derive.codegen.rewrite import prove_equal, shares_of_the_half_circle, stable_program
-from derive.derivation import derive_sheet
-from derive.library import load_geometry
 from derive.proof.points import contacts, loads
 from derive.proof.verdict import Proof, Verdict
+from derive.sheet.derivation import derive_sheet
 from derive.symbols import P, a, c
 from derive.symbols import x as along
 from generated import wedge

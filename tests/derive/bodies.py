@@ -12,11 +12,11 @@ from mpmath import mpf
 from sympy import Abs, Expr, Max, Piecewise, lambdify
 
 from derive import Geometry, parameter, x
-from derive.derivation import derive_sheet
-from derive.library import load_geometry
+from derive.body.library import load_geometry
 from derive.proof.prove import prove_sheet
 from derive.proof.verdict import Proof, Verdict
-from derive.sheet import FormulaSheet
+from derive.sheet.derivation import derive_sheet
+from derive.sheet.formulas import FormulaSheet
 
 R = parameter("R", "radius of curvature", unit="m")
 R1 = parameter("R1", "radius of curvature on the left", unit="m")

@@ -11,16 +11,16 @@ from mpmath import mpf
 from sympy import Abs, Expr, Max, Piecewise, Rational, atan, cosh, exp, log, sinh, sqrt
 from sympy.polys.polyerrors import PolynomialError
 
-import derive.derivation
-import derive.limit
+import derive.command.limit
+import derive.sheet.derivation
 from derive import Geometry, load_geometry, parameter
-from derive.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
-from derive.limit import LimitReached, LookAtClock, within
+from derive.command.limit import LimitReached, LookAtClock, within
 from derive.proof.numerical import NumericalRoutes
 from derive.proof.points import contacts, numeric
 from derive.proof.prove import prove_sheet
 from derive.proof.verdict import DIGITS, POINTS, Proof, Verdict
-from derive.sheet import FormulaSheet
+from derive.sheet.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import a, c, x
 from derive.theory.frame import Frame
 from tests.derive.bodies import of_library
@@ -213,7 +213,7 @@ def test_what_sympy_cannot_do_leaves_the_integrals(monkeypatch: pytest.MonkeyPat
     def failing(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
         raise PolynomialError
 
-    monkeypatch.setattr(derive.derivation, "closed_forms", failing)
+    monkeypatch.setattr(derive.sheet.derivation, "closed_forms", failing)
     given = of_library("catenary")
     found = with_closed_forms(given)
     assert {*found} == {*given}
@@ -237,10 +237,10 @@ def looking(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
 def test_the_search_ends_at_its_limit(
     monkeypatch: pytest.MonkeyPatch, search: Any, alarms: bool
 ) -> None:
-    monkeypatch.setattr(derive.derivation, "closed_forms", search)
-    if alarms and not derive.limit._has_alarms():
+    monkeypatch.setattr(derive.sheet.derivation, "closed_forms", search)
+    if alarms and not derive.command.limit._has_alarms():
         pytest.skip("no alarms here")
-    monkeypatch.setattr(derive.limit, "_has_alarms", lambda: alarms)
+    monkeypatch.setattr(derive.command.limit, "_has_alarms", lambda: alarms)
     given, began = of_library("catenary"), time.monotonic()
     found = with_closed_forms(given, 0.25)
     assert 0.25 <= time.monotonic() - began < 5

@@ -3,8 +3,8 @@
 from sympy import Symbol, expand
 
 from derive import symbols
+from derive.reading.units import parse_unit
 from derive.symbols import QUANTITIES, RESERVED, a, c, h, mid, w, x
-from derive.units import parse_unit
 
 
 def test_every_symbol_has_a_meaning_and_a_readable_unit_in_the_table() -> None:

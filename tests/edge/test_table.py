@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from derive.command.errors import BadTable
 from derive.edge.find import find
 from derive.edge.table import read
-from derive.errors import BadTable
 from generated import flat_rounded
 from generated.runtime.types import Contact
 from tests.commands import run

@@ -10,7 +10,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from derive.library import library
+from derive.body.library import library
 from tests.hand_values.table import DIGITS, RESULTS, Row, evaluate, read_table
 
 ULPS = 4

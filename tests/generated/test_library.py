@@ -11,8 +11,8 @@ import pytest
 from mpmath import mpf
 from numpy.testing import assert_allclose
 
-from derive.library import load_geometry
-from derive.units import parse_unit
+from derive.body.library import load_geometry
+from derive.reading.units import parse_unit
 from generated import full_stick, two_radii
 
 pytestmark = pytest.mark.slow

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from mpmath import mpf
 from numpy.testing import assert_allclose, assert_array_equal
 
-from derive.derivation import derive_sheet
-from derive.library import load_geometry
-from derive.sheet import FormulaSheet
+from derive.body.library import load_geometry
+from derive.sheet.derivation import derive_sheet
+from derive.sheet.formulas import FormulaSheet
 from generated import hertz, unequal_wedge, wedge
 from generated.runtime.types import Contact, Regime, StickZone
 from tests.derive.bodies import evaluated

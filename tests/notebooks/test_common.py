@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from derive.paper.userfile import BUILT_IN, read_claims
+from derive.check.userfile import BUILT_IN, read_claims
 from generated import hertz, wedge
 from generated.runtime.types import Contact
 from notebooks import common

@@ -14,20 +14,20 @@ import pytest
 from sympy import Abs
 
 import derive.codegen.trial
-import derive.parallel
+import derive.command.processes
 import derive.proof.prove
 from derive import Geometry, derive_sheet, parameter, x
-from derive.body import Body
-from derive.errors import BadPage
+from derive.command.errors import BadPage
+from derive.command.manifest import MANIFEST
+from derive.command.shelf import put_page, put_pages
 from derive.handbook.curves import OWN, drawn_at, pictures
 from derive.handbook.page import entry, index, page, proven
 from derive.handbook.picture import TOP, Line, svg
-from derive.manifest import MANIFEST
-from derive.mathml import mathml
 from derive.pipeline import GENERATED
 from derive.proof.verdict import Verdict
-from derive.sheet import FormulaSheet
-from derive.shelf import put_page, put_pages
+from derive.sheet.built import Body
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.mathml import mathml
 from tests.commands import done, refused
 from tests.derive.bodies import assumed, of_library
 
@@ -275,7 +275,7 @@ def test_the_command_writes_a_page_and_the_same_of_what_it_kept(
     """Without the seconds that proofs take."""
     monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
     monkeypatch.setattr(derive.codegen.trial, "demand_right", lambda *_: None)
-    monkeypatch.setattr(derive.parallel, "cores", lambda: 1)
+    monkeypatch.setattr(derive.command.processes, "cores", lambda: 1)
     pages = []
     for path in (tmp_path / "first.html", tmp_path / "second.html"):
         assert done("show", name, "--html", "--out", str(path)).strip() == f"Wrote {path}"

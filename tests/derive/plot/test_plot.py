@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from numpy.testing import assert_allclose, assert_array_equal
 
 from derive import plot
-from derive.errors import MissingLibrary
+from derive.command.errors import MissingLibrary
 from derive.plot import live as live_module
 from derive.plot.style import FORWARD, REVERSE
 from generated import hertz, wedge, wedge_parabola
@@ -455,7 +455,7 @@ def test_without_matplotlib_one_clear_error() -> None:
         "import sys; sys.modules['matplotlib'] = None\n"
         "import importlib.util as u; found = u.find_spec\n"
         "u.find_spec = lambda name, *a: None if name == 'matplotlib' else found(name, *a)\n"
-        "from derive.errors import MissingLibrary\n"
+        "from derive.command.errors import MissingLibrary\n"
         "try:\n    import derive.plot\n"
         "except MissingLibrary as error:\n    print(error)"
     )

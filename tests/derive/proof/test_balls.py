@@ -25,7 +25,7 @@ from sympy import (
     tanh,
 )
 
-from derive.profile import exact
+from derive.body.profile import exact
 from derive.proof.balls import ball, digits, function_of, functions_of, number
 from derive.symbols import x
 

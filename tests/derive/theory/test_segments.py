@@ -7,13 +7,13 @@ import mpmath
 import pytest
 from sympy import Piecewise, Rational
 
-from derive.derivation import derive_sheet
-from derive.geometry import Geometry, parameter
-from derive.notation import text_of
+from derive.body.geometry import Geometry, parameter
 from derive.proof.points import contacts, numeric, numeric_by_steps
 from derive.proof.prove import prove_sheet
 from derive.proof.verdict import POINTS
-from derive.sheet import FormulaSheet
+from derive.sheet.derivation import derive_sheet
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import text_of
 from derive.symbols import x
 from derive.theory.edges import Edge, pressure_series
 from derive.theory.segments import Parts, has_parts, written_out

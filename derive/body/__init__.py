@@ -1,0 +1,13 @@
+"""A body: its profile g(x), where it is convex, and the library of geometry files.
+
+module       contents
+----------   ------------------------------------------------------------------
+piece        one piece of a profile, and the jump of g' where two pieces meet
+steep        simplification of functions of very different steepness
+compiled     numerical functions of expressions
+lows         a search for places where a function may be negative
+convexity    the conditions under which g'' >= 0
+profile      the pieces of g(x), and the contribution of each kink
+geometry     Geometry and parameter, the names that a geometry file needs
+library      the geometry files of the library, and those of users
+"""

@@ -1,0 +1,131 @@
+"""Find and load geometry files: those of the library by name, those of a user by path.
+
+SymPy is imported when a file is loaded, not when it is looked up.
+"""
+
+import importlib.util
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from derive.command.errors import BadGeometryFile, UnknownGeometry, UserError
+
+if TYPE_CHECKING:
+    from derive.body.geometry import Geometry
+
+FOLDER = Path(__file__).parents[1] / "geometries"
+
+
+def library() -> tuple[str, ...]:
+    """Names of all bodies in derive/geometries/, in alphabetical order."""
+    return tuple(sorted(p.stem for p in FOLDER.glob("*.py") if not p.stem.startswith("_")))
+
+
+def is_in_library(name: str) -> bool:
+    """Whether derive/geometries/ contains a body of this name."""
+    return name in library()
+
+
+def load_geometry(name_or_path: str | Path) -> "Geometry":
+    """Load a geometry, given by its name in the library or by the path of its file.
+
+    Parameters
+    ----------
+    name_or_path : str or Path
+        Such as "hertz" or "skid.py".
+
+    Returns
+    -------
+    Geometry
+        The body.
+
+    Raises
+    ------
+    UnknownGeometry
+        If the library does not contain the name.
+    BadGeometryFile
+        If the file cannot be read or does not define `geometry`.
+    UserError
+        If g(x) has a fault, as in Geometry.
+
+    Examples
+    --------
+    >>> load_geometry("hertz").g
+    x**2/(2*R)
+    """
+    given = str(name_or_path)
+    if is_in_library(given):
+        return _execute(FOLDER / f"{given}.py")
+    path = Path(given)
+    if given and (path.suffix == ".py" or _exists(path)):
+        return _execute(path)
+    raise UnknownGeometry(given, library())
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):  # not a valid file name
+        return False
+
+
+def _execute(path: Path) -> "Geometry":
+    from derive.body.geometry import Geometry
+
+    if not _exists(path):
+        raise BadGeometryFile(str(path), "there is no such file")
+    if not path.is_file():
+        what = "a directory" if path.is_dir() else "a device or a pipe, not a regular file"
+        raise BadGeometryFile(str(path), f"it is {what}")
+    spec = importlib.util.spec_from_file_location(f"_geometry_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise BadGeometryFile(str(path), "it is not a Python file")
+    module = importlib.util.module_from_spec(spec)
+    keep, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    try:
+        with _interrupts_noticed() as interrupted:
+            spec.loader.exec_module(module)
+    except UserError:
+        raise
+    except BaseException as error:
+        if interrupted():
+            raise
+        why = f"{type(error).__name__}: {error}".splitlines()[0].removesuffix(": ")
+        raise BadGeometryFile(str(path), why) from error
+    finally:
+        sys.dont_write_bytecode = keep
+    geometry = getattr(module, "geometry", None)
+    if not isinstance(geometry, Geometry):
+        raise BadGeometryFile(str(path), "it does not define `geometry`")
+    return geometry.described((module.__doc__ or "").strip())
+
+
+@contextmanager
+def _interrupts_noticed() -> Iterator[Callable[[], bool]]:
+    """Tell whether Ctrl-C or SIGTERM arrived in the block; a file can raise the same exceptions."""
+    came: list[int] = []
+    before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
+    if threading.current_thread() is not threading.main_thread():
+        yield lambda: False
+        return
+
+    def passing_on(handler: Callable[[int, FrameType | None], object]) -> Callable[..., None]:
+        def handle(number: int, frame: FrameType | None) -> None:
+            came.append(number)
+            handler(number, frame)
+
+        return handle
+
+    handled = {number: handler for number, handler in before.items() if callable(handler)}
+    for number, handler in handled.items():
+        signal.signal(number, passing_on(handler))
+    try:
+        yield lambda: bool(came)
+    finally:
+        for number, handler in handled.items():
+            signal.signal(number, handler)

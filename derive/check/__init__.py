@@ -1,0 +1,40 @@
+"""Check the equations of a paper against formulas that are derived independently.
+
+    module         input                     output
+    -------------  ------------------------  --------------------------------------------------
+    claim                                    the data class of a printed equation
+    kinks          expression                points where it may kink, jump, peak or diverge
+    domain         expression, ranges        whether it is shown to be continuous
+    draw           claim                     points: random, over decades, at kinks and at spikes
+    quadrature     integrand, cuts           the integral, by two rules that agree
+    values         expression, point         the value at the working precision
+    numbers        two sides, point          both values to 30 digits that are known to be right
+    zero           expression                whether exact steps show that it vanishes identically
+    repair         printed equation          similar equations that may have been intended
+    quick          expression                a few digits, to compare candidates quickly
+    bodies         geometry                  its formulas, each proven
+    tending        claim about a limit       whether the sides approach each other, and how fast
+    diagnosis      false equation            by what its sides differ, and where it is true
+    verdict        claim                     Finding: verdict, evidence, corrected equation
+    report         findings                  rows, JSON, Markdown, LaTeX, errata
+    page           findings                  one page of HTML
+    draft          LaTeX file                a claims file for the user to complete
+    accept         claims file               the same file with the readings that a user accepted
+    context        body, symbols, equation   the equation with its calls replaced by formulas
+    lines          claims file               the lines of its claims; the file with some changed
+    entries        table of a claims file    typed entries, or an error with its place
+    mistakes       errors in a claims file   one error that reports all; the reason for one claim
+    geometry_file  geometry file             g(x) as text, and units; the file is not executed
+    variables      [variables] and bodies    ranges and units; what an equation with a body may hold
+    meanings       [symbols] and [latex]     the meanings of symbols for a body and a claim
+    printed        a claim's equation        its text, or the reading of its LaTeX to be accepted
+    claim_options  a claim's other entries   typed values
+    claim_table    table [[claims]]          a claim, which is unchecked if an entry is wrong
+    userfile       claims file in TOML       its claims
+    andresen2020/                            claims files of the paper that introduced the method
+
+Text from the user, such as an equation, is read by derive.reading.
+
+Only the command line imports this package.  Verdicts are always computed.  The entry `expected`
+of a claim is compared with the computed verdict, and affects only the exit status.
+"""

@@ -1,0 +1,141 @@
+"""What `derive show` prints, and the pages it writes.
+
+In:  the name of a geometry of the library, or a geometry file; a body that has been built.
+Out: texts, sheets for the terminal, pages.
+
+Work that may take a long time or that runs a user's file is done in a separate process with limits
+on time and memory.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any, TypeVar
+
+import click
+from rich.console import RenderableType
+from sympy import Add, Expr, Monomial, Poly
+
+from derive import derive_sheet, load_geometry, pipeline
+from derive.body.library import is_in_library
+from derive.command import view
+from derive.command.errors import RanAway
+from derive.command.processes import Report, in_processes
+from derive.command.terminal import folded, status
+from derive.proof import prove
+from derive.sheet.built import Body
+from derive.sheet.derivation import NONE_IN_TIME, slip_series, with_closed_forms
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import text_of
+
+Shown = TypeVar("Shown")
+
+_LOWER = "give a lower order with --slip, or a simpler profile"
+
+_SENSES = (
+    "kappa_left, kappa_right: directions of slip in the half-cycle that raises the shear load: 1 "
+    "and 1 under moderate tension, 1 and -1 under large tension if the tension rises, -1 and 1 if "
+    "it falls"
+)
+
+
+def apart(function: Callable[[tuple[Any, ...], Report], Shown], name: str, *more: object) -> Shown:
+    """Apply a function to a geometry, with limits for a file and for the series of slip zones.
+
+    With limits, it runs in a separate process, in which a geometry file cannot end this one.
+    """
+    limited = function is slip_of or not is_in_library(name)
+    bounds = pipeline.STRANGERS if limited else None
+    with status(f"reading {name}") as update:
+
+        def report(what: str, stage: str) -> None:
+            update(f"{what}: {stage}")
+
+        try:
+            (shown,) = in_processes(function, [(name, *more)], report, 1, bounds)
+        except RanAway as error:
+            raise replace(error, remedy=_LOWER if function is slip_of else "") from None
+    return shown
+
+
+def sheet_of(asked: tuple[str, str, float], report: Report) -> tuple[RenderableType, str]:
+    """The proven sheet of a body for the terminal, in LaTeX or as code, and a remark."""
+    name, form, limit = asked
+    sheet = _derived(name, report)
+    if not sheet.is_closed("load"):
+        report(name, f"looking for closed forms, {limit:g} s at most")
+        sheet = with_closed_forms(sheet, limit)
+    report(name, "proving")
+    sheet = prove.prove_sheet(sheet).demand_proven()
+    struck = sheet.remark.startswith(NONE_IN_TIME)
+    remark = f"{sheet.geometry.name}: {sheet.remark}" if struck else ""
+    if form == "latex":
+        return sheet.latex, remark
+    if form:
+        from derive.codegen.languages import code_of
+
+        return code_of(sheet, form, name), remark
+    return view.formulas(sheet), remark
+
+
+def page_of(asked: tuple[str, Body, float], report: Report) -> str:
+    """The page of a body that has been built."""
+    from derive.handbook.page import page
+
+    name, body, limit = asked
+    return page(_sheet_of_body(name, body, limit, report), body)
+
+
+def handbook(bodies: Sequence[Body], limit: float) -> dict[str, str]:
+    """The pages of the library with their index, by file name."""
+    from derive.handbook.page import entry, index, page
+
+    made = [*zip(sheets_of(bodies, limit), bodies, strict=True)]
+    pages = {f"{body.name}.html": page(sheet, body, index=True) for sheet, body in made}
+    return pages | {"index.html": index([entry(sheet, body) for sheet, body in made])}
+
+
+def sheets_of(bodies: Sequence[Body], limit: float) -> list[FormulaSheet]:
+    """The sheets of bodies of the library, with those formulas for which the bodies have proofs."""
+    with status("deriving") as update:
+        return [
+            _sheet_of_body(body.name, body, limit, lambda *told: update(": ".join(told)))
+            for body in bodies
+        ]
+
+
+def _sheet_of_body(name: str, body: Body, limit: float, report: Report) -> FormulaSheet:
+    from derive.handbook.page import proven
+
+    return proven(with_closed_forms(_derived(name, report), limit), body)
+
+
+def slip_of(asked: tuple[str, int], report: Report) -> str:
+    """The terms of both slip zones, then the meaning of their coefficients; long lines continue."""
+    name, order = asked
+    sheet = _derived(name, report)
+    report(name, "deriving the terms of the slip zones")
+    try:
+        terms, known = slip_series(sheet, order)
+    except ValueError as error:
+        raise click.BadParameter(str(error), param_hint="--slip") from None
+    leading = [found[0] for found in terms.values()]
+    zones = [
+        f"d_{edge.name.lower()}, order {number}: {text_of(_grouped(term, leading))}"
+        for edge, found in terms.items()
+        for number, term in enumerate(found, 1)
+    ]
+    lines = [*zones, *(f"{s} = {text_of(value)}" for s, value in known.items()), _SENSES]
+    return "\n".join(folded(line) for line in lines)
+
+
+def _grouped(term: Expr, leading: Sequence[Expr]) -> Expr:
+    """A term with one factor for each product of powers of the leading terms."""
+    groups = Poly(term, *leading).terms()
+    return Add(*(factor * Monomial(powers, leading).as_expr() for powers, factor in groups))
+
+
+def _derived(name: str, report: Report) -> FormulaSheet:
+    report(name, "reading g(x)")
+    geometry = load_geometry(name)
+    report(name, "deriving")
+    return derive_sheet(geometry)

@@ -1,0 +1,182 @@
+"""Terminal output: text and tables, errors, and a spinner or progress bar for long tasks.
+
+In:  texts and renderable objects of the library rich.
+Out: lines on standard output; errors, spinners and progress bars on standard error.
+"""
+
+import os
+import shlex
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext, suppress
+from pathlib import Path
+from shutil import get_terminal_size, which
+from textwrap import fill
+from threading import Timer
+
+import click
+from rich.console import Console, RenderableType
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+_WIDE = 10_000
+"""Width, in columns, of output that does not go to a terminal, if COLUMNS is not set: large enough
+that no line is broken before another program reads it."""
+
+_NARROW = 100
+"""Width, in columns, below which a table leaves as much room as possible for texts."""
+
+PATIENCE = 10.0
+"""Seconds after which a line says what is taking so long, if standard error is not a terminal."""
+
+
+@contextmanager
+def status(words: str) -> Iterator[Callable[[str], None]]:
+    """A spinner with a caption that the yielded function changes."""
+    console = _console(stderr=True)
+    now = [words]
+    spinner = console.status(words) if console.is_terminal else None
+    with _told_after_a_while(console, now), spinner or nullcontext():
+
+        def update(words: str) -> None:
+            now[0] = words
+            if spinner is not None:
+                spinner.update(words)
+
+        yield update
+
+
+@contextmanager
+def _told_after_a_while(console: Console, now: Sequence[str]) -> Iterator[None]:
+    """Print once what is taking so long, if no spinner or bar is shown."""
+
+    def tell() -> None:
+        remark(f"Still working after {PATIENCE:g} s: {now[0]}")
+
+    timer = Timer(PATIENCE, tell)
+    timer.daemon = True
+    if not console.is_terminal:
+        timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+@contextmanager
+def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str], None]]:
+    """A progress bar; the yielded function tells it which stage a body enters.
+
+    A word that is not a stage says that the body is finished.
+    """
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
+    console = _console(stderr=True)
+    bar = Progress(
+        *columns,
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+    )
+    now = ["starting"]
+    with _told_after_a_while(console, now), bar:
+        task = bar.add_task("", total=bodies * len(stages))
+        passed: dict[str, int] = {}
+        at_work: dict[str, str] = {}
+
+        def step(body: str, stage: str) -> None:
+            passed[body] = stages.index(stage) if stage in stages else len(stages)
+            at_work.pop(body, None)
+            if stage in stages:
+                at_work[body] = stage
+            *others, last = at_work.items() or [(body, "finishing")]
+            words = ": ".join(last) + (f", {len(others)} more in progress" if others else "")
+            now[0] = words
+            bar.update(task, description=words, completed=sum(passed.values()))
+
+        yield step
+
+
+def _console(stderr: bool = False, columns: str = "") -> Console:
+    """A console: FORCE_COLOR also colours piped output, but progress is shown on terminals only."""
+    stream = sys.stderr if stderr else sys.stdout
+    is_terminal = stream is not None and stream.isatty()
+    return Console(
+        stderr=stderr,
+        force_terminal=False if stderr and not is_terminal else None,
+        width=None if is_terminal or columns else _WIDE,
+        highlight=False,
+        markup=False,
+        emoji=False,
+    )
+
+
+def output(what: RenderableType, columns: str = "") -> None:
+    """Print without trailing blanks."""
+    console = _console(columns=columns)
+    with console.capture() as printed:
+        console.print(what)
+    text = "\n".join(line.rstrip() for line in printed.get().split("\n"))
+    click.echo(text, nl=False, color=console.color_system is not None)
+
+
+def output_table(what: RenderableType) -> None:
+    """Print a table or a sheet; COLUMNS also applies to pipes."""
+    output(what, os.environ.get("COLUMNS", ""))
+
+
+_WIDEST, _NARROWEST = 96, 20
+"""Limits of the width of a line of text, in columns."""
+
+
+def folded(line: str) -> str:
+    """A line of text, which continues with an indent where it is too long; obeys COLUMNS."""
+    columns = get_terminal_size((_WIDEST, 0)).columns
+    return fill(
+        line,
+        max(min(columns, _WIDEST), _NARROWEST),
+        subsequent_indent="    ",
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def is_narrow() -> bool:
+    """Whether tables have little room for texts."""
+    return _console(columns=os.environ.get("COLUMNS", "")).width < _NARROW
+
+
+def complain(what: str, message: str) -> None:
+    """Print on standard error what went wrong."""
+    remark(f"{click.style(f'{what}:', fg='red', bold=True)} {message}")
+
+
+def remark(words: str) -> None:
+    """Print on standard error, unless that is closed or full."""
+    with suppress(OSError, ValueError):
+        click.echo(words, err=True)
+
+
+def command() -> str:
+    """This command as the user can type it: derive, .venv/bin/derive, or python -m derive."""
+    called = Path(sys.argv[0])
+    if called.parent == Path(__file__).parents[1]:  # python -m derive
+        return f"{typed(Path(sys.orig_argv[0]))} -m derive"
+    if called.stem != "derive":  # called by another program
+        return "derive"
+    return typed(called)
+
+
+def typed(program: Path) -> str:
+    """The name of a program if the shell finds it by that name, otherwise its shortest path."""
+    found = which(program.name)
+    if found and Path(found).absolute() == program.absolute():
+        return shlex.quote(program.name)
+    if program.parent == Path():
+        return shlex.quote(str(program))
+    return shlex.quote(path_of(program.absolute()))
+
+
+def path_of(path: Path) -> str:
+    """A path as the user would type it."""
+    here = Path.cwd()
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)

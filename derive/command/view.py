@@ -1,0 +1,171 @@
+"""The output of the commands: tables and formula sheets for a terminal.
+
+In:  sheets, bodies, differences, findings.
+Out: renderable objects of the library rich.
+
+Only functions that show formulas import SymPy.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from rich.console import Group, RenderableType
+from rich.table import Column, Table
+from rich.text import Text
+
+from derive.proof.verdict import Verdict
+from derive.sheet.built import Body, by_form
+
+if TYPE_CHECKING:
+    from derive.check.verdict import Finding
+    from derive.codegen.publish import Difference
+    from derive.sheet.formulas import FormulaSheet
+
+
+def listing(sheets: "Iterable[FormulaSheet]", narrow: bool = False) -> RenderableType:
+    """All geometries: g(x), and which parts are in closed form or numerical.
+
+    narrow: whether there is too little room for a table, so that a list is shown
+    """
+    from derive.sheet.notation import text_of
+
+    heads = ("geometry", "g(x)", "closed form", "numerical", "body")
+    rows = [
+        (
+            sheet.geometry.name,
+            text_of(sheet.geometry.g),
+            *(_row(parts) for parts in by_form(sheet.is_closed)),
+            sheet.geometry.title,
+        )
+        for sheet in sheets
+    ]
+    if narrow:
+        return Group(*(_listed(*row) for row in rows))
+    table = Table(*(Column(head, no_wrap=head == "geometry", overflow="fold") for head in heads))
+    for name, *rest in rows:
+        table.add_row(Text(name, style="bold cyan"), *rest)
+    return table
+
+
+def _listed(name: str, g: str, closed: str, numerical: str, title: str) -> Group:
+    """One geometry in a list."""
+    rest = Table.grid(padding=(0, 2, 0, 0))
+    for head, words in (("g(x)", g), ("closed form", closed), ("numerical", numerical)):
+        rest.add_row(Text(f"  {head}"), words)
+    return Group(Text.assemble((name, "bold cyan"), f"  {title}"), rest, "")
+
+
+def summary(bodies: Iterable[Body]) -> Table:
+    """A table of the bodies built: closed or numerical parts, proofs by kind, and time."""
+    table = Table(
+        Column("geometry", no_wrap=True),
+        *("closed form", "numerical"),
+        Column("proven", justify="right"),
+        Column("by 30 digits", justify="right"),
+        Column("time", no_wrap=True, justify="right"),
+    )
+    for body in bodies:
+        table.add_row(
+            Text(body.name, style="bold cyan"),
+            _row(body.closed),
+            _row(body.numerical),
+            Text(str(len(body.formulas(Verdict.PROVEN))), style="green"),
+            Text(str(len(body.formulas(Verdict.NUMERICAL))), style="yellow"),
+            "kept" if body.kept else f"{body.seconds:.1f} s",
+        )
+    return table
+
+
+def _row(words: Iterable[str]) -> str:
+    """Every word once, separated by commas."""
+    return ", ".join(dict.fromkeys(words)) or "-"
+
+
+def formulas(sheet: "FormulaSheet") -> Group:
+    """A formula sheet for a terminal."""
+    from derive.sheet.notation import text_of
+
+    table = Table.grid(padding=(0, 2, 1, 0))
+    for name, formula in sheet.items():
+        table.add_row(
+            Text(name, style="bold cyan"),
+            Text.assemble(
+                (f"{sheet.equation(name)}\n", "bold"),
+                *([f"computed as {computed}\n"] if (computed := sheet.computed_as(name)) else []),
+                f"{formula.meaning} [{formula.unit}], if {formula.assumptions}\n",
+                (f"{formula.proof or 'not proven yet'}\n", "green"),
+                (formula.source, "dim"),
+            ),
+        )
+    for symbol, definition in (sheet.definitions | sheet.computed_definitions).items():
+        table.add_row(Text(str(symbol), style="cyan"), f"{symbol} = {text_of(definition)}")
+    for q in sheet.quantities:
+        table.add_row(Text(q.name, style="cyan"), Text(f"{q.meaning} [{q.unit}]"))
+    remark = [sheet.remark] if sheet.remark else []
+    return Group(Text(sheet.title, style="bold"), *remark, "", table)
+
+
+def drift(found: "Iterable[Difference]") -> Group:
+    """The files that differ from the generated ones, with their differences."""
+    parts: list[RenderableType] = []
+    for difference in found:
+        parts.append(Text(f"{difference.name}: {difference.what}", style="bold red"))
+        if difference.diff:
+            parts += [Text(line, style=_DIFF.get(line[:1], "")) for line in difference.lines]
+    return Group(*parts)
+
+
+_DIFF = {"+": "green", "-": "red", "@": "cyan"}
+
+
+_VERDICTS = {
+    "holds": "green",
+    "by definition": "green",
+    "numerical": "yellow",
+    "convention": "magenta",
+    "fails": "bold red",
+    "unchecked": "blue",
+}
+
+
+def checked(findings: "Sequence[Finding]") -> Group:
+    """The verdict on every claim, and a remark on each claim that is not true as printed."""
+    from derive.check import report
+
+    table = Table("claim", Column("verdict", no_wrap=True), "description")
+    for finding in findings:
+        verdict = _verdict_of(finding)
+        claim = finding.claim
+        table.add_row(Text(claim.name, style="cyan"), verdict, claim.says)
+    parts: list[RenderableType] = [table]
+    for finding, remark in report.remarks(findings):
+        line = Text.assemble((finding.claim.name, "cyan"), ": ", _verdict_of(finding), ": ")
+        parts.append(line.append(remark))
+    return Group(*parts, Text(report.summary(findings), style="bold"))
+
+
+def _verdict_of(finding: "Finding") -> Text:
+    verdict = Text(str(finding.verdict), style=_VERDICTS[finding.verdict])
+    return verdict if finding.as_expected else verdict.append(" (unexpected)", style="bold red")
+
+
+def explained(findings: "Sequence[Finding]") -> Group:
+    """One claim, or all of one equation."""
+    return Group(*(part for each in findings for part in (*_explained(each), "")))
+
+
+def _explained(finding: "Finding") -> list[RenderableType]:
+    """One claim: the formula it was compared with, the steps, and the numbers."""
+    from derive.check import report
+
+    entries = Table.grid(Column(style="bold", no_wrap=True), "", padding=(0, 2, 0, 0))
+    for heading, lines in report.explanation(finding):
+        for n, line in enumerate(lines):
+            entries.add_row("" if n else heading, Text(line))
+    parts: list[RenderableType] = [Text(finding.claim.name, style="bold cyan"), entries]
+    if rows := report.numbers(finding):
+        table = Table("point", "left", "right", title="numbers", title_justify="left")
+        for row in rows:
+            table.add_row(*row)
+        parts.append(table)
+    return parts

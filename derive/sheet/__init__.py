@@ -1,0 +1,11 @@
+"""The formula sheet of a body: all formulas, each with its unit, source and proof.
+
+module       contents
+----------   ------------------------------------------------------------
+notation     formulas as text and LaTeX
+mathml       LaTeX as MathML
+prose        formulas in plain text as HTML
+formulas     FormulaSheet, which holds the formulas
+derivation   a body's sheet, derived from g(x) stage by stage
+built        the finished body as plain data, which the cache keeps
+"""

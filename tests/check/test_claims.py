@@ -1,0 +1,255 @@
+"""What a claim may say beside its equation: where it is true or tends, what it follows from."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import mpmath
+import pytest
+from sympy import Symbol, symbols
+
+from derive.check.claim import Claim, Verdict
+from derive.check.diagnosis import named
+from derive.check.report import explanation, summary
+from derive.check.verdict import Finding, Judged
+from derive.command.shelf import MARK
+from derive.reading.dimensions import Units
+from derive.reading.formula import Names, equation
+from derive.reading.units import parse_unit
+from tests.check import asking
+
+HEAD = """
+body = "hertz"
+[variables]
+a = { meaning = "half-width", unit = "m" }
+b = { low = 0.1, high = 5 }
+w = { low = 0.1, high = 5 }
+nu = { low = -0.9, high = 0.5 }
+R = { low = 2, high = 3 }
+[symbols]
+P = "load(a, a)"
+p = "pressure(x, a, a)"
+p_0 = "2*P/(pi*a)"
+K = "K_N_left(a, a)"
+E = ""
+G = ""
+t = ""
+"""
+
+
+def told(folder: Path, printed: str, more: str = "", before: str = "") -> dict[str, Any]:
+    """The last claim of a file."""
+    return asking.told(folder, HEAD + before + asking.claim(printed, more))[-1]
+
+
+# By hand: p = p_0 sqrt(1 - x**2/a**2) is p_0 sqrt(2 t/a) (1 - t/(4 a) ...) at t from an edge.
+# The sum of 1/k**2 is pi**2/6; the principal value of 1/(s - x) over [-3, 3] is
+# log((3 - x)/(3 + x)), and that of p(s)/(x - s) over the contact pi E* x/(2 R).
+@pytest.mark.slow
+@pytest.mark.usefixtures("unmended")
+@pytest.mark.parametrize(
+    ("printed", "more", "verdict"),
+    [
+        # what tends where
+        ("p ~ K*sqrt(a + x)", "as = 'a + x -> 0'", "numerical"),
+        ("p ~ p_0*sqrt(2*(a - x)/a)", "as = 'x -> a'", "numerical"),
+        ("p ~ 2*K*sqrt(a + x)", "as = 'a + x -> 0'", "fails"),
+        ("p = K*sqrt(a + x)", "as = 'x -> -a'\norder = 1.5", "numerical"),
+        ("p = K*sqrt(a + x)", "as = 'x -> -a'\norder = 2.5", "fails"),
+        ("sqrt(x**2 + a**2) ~ x", "as = 'x -> oo'", "numerical"),
+        ("sin(b) ~ b", "as = 'b -> 0'", "numerical"),
+        ("log(1/b) ~ 1/b", "as = 'b -> 0'", "fails"),
+        # where and of what it is said
+        ("sqrt((w - b)**2) = w - b", "require = 'b < w'", "numerical"),
+        ("sqrt((w - b)**2) = w - b", "", "fails"),
+        ("sqrt((w - b)**2) = b - w", "require = ['b > w']", "numerical"),
+        ("abs(x) = x", "require = 'P > 0 and x > 0'", "numerical"),
+        ("p = p_0*sqrt(1 - x**2/a**2)", "", "holds"),  # at |x| < a, where the pressure is
+        ("stick_m(P, 0, b, 0) = sqrt(4*R*(P - b/(2*f))/(pi*E_star))", "", "holds"),
+        ("load(a, c) = P", "symbols = { c = 'a' }", "holds"),
+        ("P = load(a, a)", "", "by definition"),
+        ("load(a, w) = E_star*phi*sqrt(a*w)", "body = 'wedge'", "holds"),
+        ("load(a, a) = P", "body = { g = 'x**2/R', units = { R = 'm' } }", "by definition"),
+        ("load(a, a) = pi*E_star*a**2/(2*R)", "body = { g = 'x**2/R' }", "holds"),
+        (
+            "sinh(w)**2 + 1 = cosh(w)**2",
+            "body = 'none'\nsymbols = { P = '1', p = '1', K = '1' }",
+            "holds",
+        ),
+        # what papers say
+        ("diff(P, a) = pi*E_star*a/(2*R)", "", "holds"),
+        ("limit(abs(x)/x, x, 0) = 1", "", "unchecked"),  # -1 from the left
+        ("sum(1/k**2, k, 1, oo) = pi**2/6", "", "holds"),
+        ("Piecewise((x, x > 0), (-x, True)) = abs(x)", "", "numerical"),
+        ("integral(exp(t), t, -oo, 1) = exp(1)", "", "numerical"),
+        ("integral(t/(1 + t**2), t, -oo, oo) = 0", "", "unchecked"),
+        ("limit(atan(x), x, -oo) = -pi/2", "", "holds"),
+        ("pv(1/(s - x), s, -3, 3) = log((3 - x)/(3 + x))", "", "numerical"),
+        ("pv(1/(s - x), s, -3, 3) = log((3 + x)/(3 - x))", "", "fails"),
+        ("pv(pressure(s, a, a)/(x - s), s, -a, a) = pi*E_star*x/(2*R)", "", "numerical"),
+        ("pv(s, s, -a, a) = 0", "", "unchecked"),
+        ("p_0 = 0.564*sqrt(P*E_star/R)", "", "numerical"),  # 1/sqrt(pi) = 0.56419
+        ("p_0 = 0.565*sqrt(P*E_star/R)", "", "fails"),
+    ],
+)
+def test_what_is_said_beside_an_equation(
+    tmp_path: Path, printed: str, more: str, verdict: str
+) -> None:
+    found = told(tmp_path, printed, more)
+    assert found["verdict"] == verdict, found["reason"]
+
+
+GEOMETRY = """
+from derive import Geometry, parameter, x
+open("executed", "w").close()
+half = parameter("half", "half the radius", unit="m")
+geometry = Geometry("own", g=x**2 / (4 * half))
+"""
+
+
+def test_a_geometry_file_is_a_body_and_is_not_executed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """g = x**2/(4 half) is a cylinder of radius 2 half: P = pi E* a**2/(4 R)."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "own.py").write_text(GEOMETRY)
+    head = 'body = "own.py"\n[variables]\na = "half-width"\n'
+    (it,) = asking.told(tmp_path, head + asking.claim("load(a, a) = pi*E_star*a**2/(8*half)"))
+    assert it["verdict"] == "holds"
+    assert not (tmp_path / "executed").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("geometry = 3", "does not have exactly one `geometry = Geometry"),
+        ("(", "is not valid Python"),
+        (
+            GEOMETRY.replace('"half"', '"b"'),
+            "the parameter 'half' is assigned to a Python variable",
+        ),
+        (GEOMETRY.replace("x**2", "__import__('os').getcwd()"), "__import__"),
+    ],
+)
+def test_a_geometry_file_that_is_none(tmp_path: Path, text: str, why: str) -> None:
+    (tmp_path / "own.py").write_text(text)
+    done = asking.run(asking.written(tmp_path, 'body = "own.py"\n' + asking.claim("f = f")))
+    assert done.exit_code == 2
+    assert why in done.output
+
+
+MODULI = """
+[[claims]]
+label = "(8)"
+printed = "E = 2*G*(1 + nu)"
+[[claims]]
+label = "(9)"
+printed = "G = w/(1 + nu)"
+"""
+
+
+@pytest.mark.usefixtures("unmended")
+@pytest.mark.parametrize(
+    ("printed", "given", "verdict"),
+    [
+        ("G = E/(2*(1 + nu))", '["(8)"]', "holds"),
+        ("G = E/(1 + nu)", '["(8)"]', "fails"),
+        ("E = 2*w", '["(8)", "(9)"]', "holds"),
+        ("E = 2*w", '["(9)"]', "fails"),
+        ("E = 4*G*(1 + nu)*integral(t, t, 0, 1)", '["(8)"]', "numerical"),
+    ],
+)
+def test_what_follows(tmp_path: Path, printed: str, given: str, verdict: str) -> None:
+    found = told(tmp_path, printed, f"given = {given}", MODULI)
+    assert found["verdict"] == verdict, found["reason"]
+    assert "given (" in found["evidence"]
+
+
+@pytest.mark.parametrize("given", ['["it"]', '["(10)"]', '"(8)"'])
+def test_what_cannot_be_given(tmp_path: Path, given: str) -> None:
+    found = told(tmp_path, "E = G", f"given = {given}", MODULI)
+    assert (found["verdict"], "given" in found["reason"]) == ("unchecked", True)
+
+
+# By hand: a = (2/sqrt(pi)) sqrt(P R/E*), P = pi E* a**2/(4 R), and 29*4 is 116.
+@pytest.mark.parametrize(
+    ("printed", "key", "part"),
+    [
+        ("a = sqrt(P*R/(29*E_star))", "diagnosis", "the ratio left/right is sqrt(116/pi) at"),
+        ("P = E_star*a/R", "diagnosis", "the ratio left/right is pi/4*a at"),
+        ("p_0 = P*E_star/(pi*R)", "corrected", "p_0 = sqrt(E_star*P/(pi*R))"),
+    ],
+)
+def test_by_what_both_sides_differ(tmp_path: Path, printed: str, key: str, part: str) -> None:
+    found = told(tmp_path, printed)
+    assert found["verdict"] == "fails"
+    assert part in (found[key] or "")
+
+
+@pytest.mark.parametrize(
+    ("value", "name"),
+    [
+        (lambda: 4 / mpmath.pi, "4/pi"),
+        (lambda: mpmath.pi**2 / 6, "pi**2/6"),
+        (lambda: mpmath.mpf("1.2345678901234567890123"), ""),
+    ],
+)
+def test_constants_are_named(value: Callable[[], mpmath.mpf], name: str) -> None:
+    with mpmath.workdps(40):
+        assert named(value()) == name
+
+
+def test_units_of_symbols_that_nobody_knows() -> None:
+    """t is in metres by the first equation, so that the second one does not fit."""
+    a, t, p = symbols("a t p")
+    names = Names("here", {"a": a, "t": t, "p": p, "s": Symbol("s")}, {})
+    units = Units({a: parse_unit("m"), p: parse_unit("Pa")}, {}, {})
+    fits = ("t = 2*a", "p = integral(p/t, s, 0, a)", "t/a = sin(t/a)")
+    for text in fits:
+        left, _, right = equation(text, names)
+        assert units.mismatch(left, right) == ""
+    for text in ("p = p*t", "a = 1 + t", "exp(a) = 2", "p = integral(p, s, 0, a)"):
+        left, _, right = equation(text, names)
+        assert units.mismatch(left, right)
+
+
+def test_the_page_holds_every_claim(tmp_path: Path) -> None:
+    claims = (
+        '[[claims]]\nlabel = "right"\nprinted = "P = pi*E_star*a**2/(4*R)"\n'
+        "[[claims]]\nlabel = \"<script>\"\nlatex = 'p_0 = \\frac{P}{\\pi a} \\text{<script>}'\n"
+        'printed = "x"\nunchecked = "not yet"\n'
+        '[[claims]]\nlabel = "wrong"\nprinted = "P = E_star*a**2/(5*R)"\n'
+    )
+    done = asking.run(asking.written(tmp_path, HEAD + claims), "--format", "html")
+    assert done.exit_code == 1
+    page = done.stdout
+    assert "<script" not in page
+    assert "&lt;script&gt;" in page
+    assert page.count("<section") == 3
+    assert MARK in page  # another run may replace it
+    assert "<dt>printed</dt><dd><math" in page
+    assert "<code>P = pi*E_star*a**2/(4*R)</code>" in page
+    assert "5*pi/4" in page
+    assert page.count("<polyline") == 2
+    assert page.rstrip().endswith("</html>")
+
+
+@pytest.mark.parametrize(
+    ("label", "number", "name"),
+    [("eqn:Knc/1", "", "eq. (8), here"), ("m/n", "(8)", "eq. (8), here"), ("area", "", "area")],
+)
+def test_readers_see_the_number_of_an_equation_and_no_latex(
+    label: str, number: str, name: str
+) -> None:
+    claim = Claim(label, "eq. (8), here", "so", equation=number)
+    assert claim.name == name
+    explained = str(explanation(Finding(claim, Verdict.HOLDS, Judged(Verdict.HOLDS, ""))))
+    assert claim.name == label or label not in explained
+    assert claim.is_called(label) and claim.is_called(name) and not claim.is_called("(9)")
+    assert claim.is_called("(8)") == claim.is_called("eq. (8)") == bool(number)
+
+
+def test_numbers_of_verdicts_are_grammatical() -> None:
+    verdicts = (Verdict.HOLDS, Verdict.FAILS, Verdict.FAILS, Verdict.NUMERICAL)
+    findings = [Finding(Claim("it", "here", "so"), v, Judged(v, "")) for v in verdicts]
+    assert summary(findings) == "4 claims: 1 holds, 1 numerical, 2 fail"

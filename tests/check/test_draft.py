@@ -1,0 +1,189 @@
+"""A paper in LaTeX read into a claims file: numbers, labels, statements, and what is refused."""
+
+import errno
+import json
+import os
+import time
+import tomllib
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from derive.command.cli import main
+from derive.reading.displays import displays
+from derive.reading.statements import statements
+from tests.check import asking
+from tests.check.asking import run
+
+ROOT = Path(__file__).parents[2]
+
+PAPER = r"""
+\documentclass{article}
+\newcommand{\dif}{\mathrm{d}}
+\begin{document}
+% \begin{equation} a = 1 \end{equation}
+\begin{equation}\label{law}
+P = \int_{-a}^{a} p(x)\,\dif x = \frac{a^2 \pi E^*}{4 R}\;\text{,}
+\end{equation}
+\begin{align}
+a &= b, \label{first}\\
+c &\simeq d + \ldots \nonumber\\
+K_T &= \frac{\pm Q}{\pi}
+\end{align}
+\begin{subequations}\begin{align} m &= n \\ n &= m \end{align}\end{subequations}
+\[ u = v \]
+\begin{equation} \sum_i a_i = b \end{equation}
+\end{document}
+"""
+
+
+def written(folder: Path, text: str) -> Path:
+    return asking.written(folder, text, "paper.tex")
+
+
+def test_displays_are_numbered_as_latex_numbers_them(tmp_path: Path) -> None:
+    source = displays(written(tmp_path, PAPER))
+    found = source.found
+    assert source.environments == 5
+    assert [(each.number, "".join(each.labels)) for each in found] == [
+        ("1", "law"),
+        ("2", "first"),
+        ("", ""),
+        ("3", ""),
+        ("4a", ""),
+        ("4b", ""),
+        ("", ""),
+        ("5", ""),
+    ]
+    assert found[0].line == 6
+
+
+def test_a_draft_says_what_was_read_and_judges_nothing(tmp_path: Path) -> None:
+    new = tmp_path / "draft.toml"
+    done = run(written(tmp_path, PAPER), "--draft", new)
+    assert done.exit_code == 0, done.output
+    assert "eq. (5), paper.tex" in done.output
+    data = tomllib.loads(new.read_text())
+    claims = {claim["label"]: claim for claim in data["claims"]}
+    assert claims["law/1"]["understood"] == "P = integral(p_at_x, x, -a, a)"
+    assert claims["law/2"]["accepted"] is False
+    assert {"P", "p_at_x", "K_T", "Q"} <= data["symbols"].keys()
+    assert data["symbols"]["P"]["proposal"] == "load(a, c)"
+    assert "understood" not in claims["(5)"]
+    told = json.loads(run(new, "--format", "json").stdout)
+    assert {each["verdict"] for each in told} == {"unchecked"}
+    assert all(each["reason"] for each in told)
+
+
+@pytest.mark.parametrize("command", ["draft", "accept", "edge"])
+def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
+    """One line with the file, and nothing is left or lost."""
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    paper, claims, table = written(tmp_path, PAPER), tmp_path / "new.toml", tmp_path / "new.csv"
+    if command == "accept":
+        run(paper, "--draft", claims)
+    before = {path: path.read_text() for path in tmp_path.iterdir()}
+    monkeypatch.setattr(os, "fsync", full)
+    if command == "edge":
+        example = str(ROOT / "examples" / "edge_flat_rounded.csv")
+        done = CliRunner().invoke(main, ["edge", example, "--f", "0.5", "--csv", str(table)])
+    elif command == "accept":
+        done = run(claims, "--accept", answers="y\n" * 9)
+    else:
+        done = run(paper, "--draft", claims)
+    assert done.exit_code == 2
+    (told,) = done.stderr.splitlines()
+    assert str(table if command == "edge" else claims) in told and "free some space" in told
+    assert {path: path.read_text() for path in tmp_path.iterdir()} == before
+
+
+def test_a_draft_replaces_nothing(tmp_path: Path) -> None:
+    paper = written(tmp_path, PAPER)
+    assert run(paper, "--draft", paper).exit_code == 2
+    assert paper.read_text() == PAPER
+
+
+@pytest.mark.parametrize(
+    ("latex", "found"),
+    [
+        (r"a = b = c", ["a = b", "a = c"]),
+        (r"a \leq b = c.", [r"a \leq b", "b = c"]),
+        (r"a = b \quad\text{and}\quad c = d;", ["a = b", "c = d"]),
+        (r"a \pm b = \mp c", ["a + b = - c", "a - b = c"]),
+        (r"a = {b \over c}", [r"a = {\frac {b} {c}}"]),
+        (r"\begin{split} a &= b \\ &+ c \end{split}", ["a = b + c"]),
+    ],
+)
+def test_statements(latex: str, found: list[str]) -> None:
+    texts = [" ".join(each.latex.split()) for each in statements("here", latex)]
+    assert texts == found
+
+
+PHYSICS = r"""
+\newcommand{\half}[1]{\frac{#1}{2}}
+\DeclareMathOperator{\sgn}{sgn}
+\begin{document}
+The normal load, $P$, acts, and $a$ is the half-width of the contact.
+\begin{align} p(x) &= \half{P} \sgn(x) \label{one} \\
+p(0) &= P, \quad |x| < a \label{two} \end{align}
+\begin{equation} P = p(x - s) \end{equation}
+\begin{equation} \frac{d}{dx} p(x) = 0 \end{equation}
+In a line $a = \half{b}$ may stand.
+\end{document}
+"""
+
+
+def test_a_draft_asks_where_it_is_not_sure(tmp_path: Path) -> None:
+    new = tmp_path / "draft.toml"
+    done = run(written(tmp_path, PHYSICS), "--draft", new, "--inline")
+    assert done.exit_code == 0, done.output
+    assert "p is a function elsewhere" in done.output
+    assert "d/dx before its operand is not supported" in done.output
+    data = tomllib.loads(new.read_text())
+    claims = {claim["label"]: claim for claim in data["claims"]}
+    assert claims["one"]["understood"] == "p_at_x = P/2*sign(x)"
+    assert claims["two"]["require"] == "abs(x) < a"
+    assert claims["line 10"]["understood"] == "a = b/2"
+    assert data["symbols"]["P"]["meaning"] == "normal load"
+    assert data["symbols"]["a"]["meaning"] == "half-width of the contact"
+    assert data["symbols"]["P"]["unit"] == "N/m"
+    assert {each["verdict"] for each in json.loads(run(new, "--format", "json").stdout)} == {
+        "unchecked"
+    }
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "{" * 5000 + "a = b",
+        r"\int \int \int = a",
+        "a = " + r"\frac" * 500,
+        r"_ = ^",
+    ],
+)
+def test_hostile_latex_is_told_and_does_not_hang(body: str, tmp_path: Path) -> None:
+    start = time.monotonic()
+    text = rf"\begin{{document}}\begin{{equation}}{body}\end{{equation}}"
+    done = run(written(tmp_path, text), "--draft", tmp_path / "new.toml")
+    assert done.exit_code == 0
+    assert "not read: eq. (1)" in done.output
+    assert time.monotonic() - start < 30
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        (r"\begin{equation} a = b", "is not closed"),
+        ("no mathematics", "no displayed equations"),
+        ("$$a$$" * 600, "more than 500 displays"),
+        ("x" * 5_000_001, "larger than"),
+    ],
+)
+def test_a_file_that_cannot_be_drafted(text: str, part: str, tmp_path: Path) -> None:
+    done = run(written(tmp_path, text), "--draft", tmp_path / "new.toml")
+    assert (done.exit_code, part in done.output) == (2, True), done.output
+    assert not (tmp_path / "new.toml").exists()

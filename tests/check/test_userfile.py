@@ -1,0 +1,626 @@
+"""A user's own claims: what is read, what is refused and how, in which formats it is told."""
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+from sympy import Integral, Symbol, elliptic_k, symbols
+
+from derive.check.claim_table import OF_A_CLAIM
+from derive.check.userfile import KEYS, open_readings
+from derive.command.errors import BadFormula
+from derive.reading.formula import Names, equation, formula
+from derive.reading.latex import Latex
+from tests.check.asking import run, told, written
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "cattaneo_mindlin.toml"
+PAGE = (ROOT / "docs" / "claims.md").read_text()
+TOML_OF_THE_PAGE = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+
+HEAD = """
+title = "A disc"
+[variables]
+r = "radius"
+k = { low = 0.1, high = 0.9 }
+[symbols]
+R = "r"
+A = "pi*((r + k)**2 - k*(2*r + k))"   # a larger disc less a ring
+"""
+CIRCLE = HEAD + '[[claims]]\nlabel = "area"\nprinted = "A = pi*R**2"\n'
+WRONG = HEAD + '[[claims]]\nlabel = "area"\nprinted = "A = 2*pi*R**2"\n'
+
+
+def one(entry: str) -> str:
+    """A claim by its equation, or by several lines of its entry."""
+    entry = entry if "printed" in entry or "latex" in entry else f"printed = '{entry}'"
+    return f"[[claims]]\nlabel = 'it'\n{entry}\n"
+
+
+# ------------------------------------------------------------------ the command
+
+
+@pytest.mark.parametrize(
+    ("text", "status", "part"),
+    [
+        (CIRCLE, 0, "1 claim: 1 holds"),
+        (WRONG, 1, "Not as expected: area"),
+        (WRONG + 'expected = "fails"\n', 0, ""),
+        (CIRCLE + 'expected = "fails"\n', 1, ""),
+        (HEAD + one("unchecked = 'no equation'\nexpected = 'unchecked'\n# printed"), 0, ""),
+        ("\ufeff" + CIRCLE, 0, ""),  # a byte order mark is no mistake
+    ],
+)
+def test_the_status_tells_whether_verdicts_are_as_expected(
+    tmp_path: Path, text: str, status: int, part: str
+) -> None:
+    done = run(written(tmp_path, text))
+    assert (done.exit_code, part in done.output) == (status, True), done.output
+
+
+def test_json_has_what_the_contract_says(tmp_path: Path) -> None:
+    (wrong,), (right,) = told(tmp_path, WRONG), told(tmp_path, CIRCLE)
+    assert {"label", "verdict", "printed", "corrected", "evidence"} <= wrong.keys()
+    assert (wrong["label"], wrong["verdict"], wrong["place"]) == ("area", "fails", "claims.toml")
+    assert wrong["printed"] == "A = 2*pi*R**2"
+    assert wrong["corrected"] == "A = pi*R**2"
+    assert right["corrected"] is None
+
+
+@pytest.mark.parametrize(
+    ("form", "part"), [("markdown", "## Errata"), ("latex", r"\end{document}")]
+)
+def test_documents(tmp_path: Path, form: str, part: str) -> None:
+    done = run(written(tmp_path, WRONG), "--format", form)
+    assert part in done.stdout
+    assert r"A = \pi R^{2}" in done.stdout
+
+
+def test_one_claim_is_explained(tmp_path: Path) -> None:
+    done = run(written(tmp_path, WRONG), "--explain", "area")
+    for heading in ("printed", "compared with", "symbols", "numbers", "verdict", "corrected"):
+        assert heading in done.stdout
+    assert "tried" in done.stdout
+
+
+def test_a_convention_of_one_s_own(tmp_path: Path) -> None:
+    text = HEAD + (
+        '[[claims]]\nlabel = "area"\nprinted = "-A = pi*R**2"\nexpected = "convention"\n'
+        'conventions = [{ what = "area downward", symbols = { A = "-pi*r**2" }, '
+        'contradicts = "eq. (0)" }]\n'
+    )
+    done = run(written(tmp_path, text))
+    assert done.exit_code == 0, done.output
+    assert "area downward" in done.output
+
+
+@pytest.mark.slow
+def test_the_worked_example() -> None:
+    done = run(EXAMPLE, "--format", "json")
+    assert done.exit_code == 0, done.output
+    (wrong,) = (claim for claim in json.loads(done.stdout) if claim["verdict"] == "fails")
+    assert (wrong["label"], wrong["corrected"]) == ("stick zone", "c = a*sqrt(1 - Q/(P*f))")
+
+
+# ------------------------------------------------------------------ what is refused
+
+BAD = {
+    "no TOML": ("title = ", "not valid TOML"),
+    "a deep list": (
+        "a = " + "[" * 3000 + '"]"' + "]" * 3000,
+        "nested 3000 deep, and at most 8 levels",
+    ),
+    "no claims": (HEAD, "the file has no [[claims]]"),
+    "claims no list": (HEAD + "\n[claims]\n", "the file has no [[claims]]"),
+    "unknown key": ('colour = "red"\n' + CIRCLE, "'colour'"),
+    "a key of a variable": (CIRCLE.replace("high = 0.9", "high = 0.9, step = 1"), "'step'"),
+    "no label": (HEAD + '[[claims]]\nprinted = "A = R"\n', "no label"),
+    "unknown body": ('body = "sphere"\n' + CIRCLE, "not in the library"),
+    "bad name": (CIRCLE.replace("[symbols]", '[symbols]\n"a b" = "r"'), "not a valid name"),
+    "a meaning": (CIRCLE.replace("high = 0.9", "high = 0.9, meaning = 5"), "meaning = 5 is not"),
+    "a label": (HEAD + '[[claims]]\nlabel = 5\nprinted = "A = R"\n', "label = 5 is not a string"),
+    "truth as a bound": (CIRCLE.replace("low = 0.1", "low = false"), "no valid range"),
+    "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no valid range"),
+    "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
+    "control character": (CIRCLE.replace('"area"', '"a\\u001b[2J"'), "control character"),
+    "no spelling": (CIRCLE + '[latex]\n"x" = ["a"]\n', "is not a name"),
+    "bad symbol": (CIRCLE.replace('R = "r"', 'R = "pi*q"'), "does not define q"),
+    "symbol of a parameter": (
+        'body = "hertz"\n[variables]\nl = "l"\n[symbols]\nR = "2*l"\n' + one("R = 2*l"),
+        "claims.toml:5: the symbol",
+        "'R' is already a parameter of the body",
+    ),
+    "symbol of no body": (
+        HEAD + 'P = "lod(r, r)"\n' + one("body = 'none'\nprinted = 'r = r'"),
+        "symbols: P: lod is not a function",
+    ),
+    "all at once": (
+        CIRCLE.replace('R = "r"', 'R = "pi*q"').replace("low = 0.1", "low = 3")
+        + 'colour = "red"\nexpected = "maybe"\n[[claims]]\nlabel = "next"\nprinted = "A = ("\n',
+        *("5 errors", "claims.toml:5: variable 'k'", "claims.toml:7, symbols"),
+        *("claims.toml:9: claim 'area'", "claims.toml:14, claim 'next'"),
+    ),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_input_is_one_message_and_status_two(case: str, tmp_path: Path) -> None:
+    text, *parts = BAD[case]
+    done = run(written(tmp_path, text))
+    assert done.exit_code == 2, done.output
+    assert all(part in done.stderr for part in parts), done.stderr
+    assert "Traceback" not in done.stderr
+    assert done.stdout == ""
+
+
+DAY = "1979-05-27"
+"""A date in TOML, which no key allows."""
+
+
+@pytest.mark.parametrize("key", sorted(KEYS))
+def test_a_key_of_a_file_with_a_value_of_another_type(key: str, tmp_path: Path) -> None:
+    text = f"{key} = {DAY}\n"
+    if key == "title":
+        text += CIRCLE.replace('title = "A disc"\n', "")
+    elif key != "claims":
+        text += one("1 = 1")
+    done = run(written(tmp_path, text))
+    assert done.exit_code == 2, done.output
+    assert key in done.stderr and "Traceback" not in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize("key", sorted(OF_A_CLAIM - {"label", "printed"}))
+def test_a_key_of_a_claim_with_a_value_of_another_type(key: str, tmp_path: Path) -> None:
+    text = CIRCLE.replace("printed", "latex") if key in ("part", "understood") else CIRCLE
+    right = '[[claims]]\nlabel = "right"\nprinted = "A = pi*R**2"\n'
+    done = run(written(tmp_path, f"{text}{key} = {DAY}\n{right}"), "--format", "json")
+    wrong, other = json.loads(done.stdout)
+    assert (done.exit_code, other["verdict"], wrong["verdict"]) == (1, "holds", "unchecked")
+    assert key in wrong["reason"]
+    assert "could not be read" not in wrong["reason"]
+
+
+BAD_CLAIMS = {
+    "unknown key": (CIRCLE + 'colour = "red"\n', "the key 'colour' is unknown"),
+    "no equation": (CIRCLE.replace("printed", "says"), "`printed` and `latex`"),
+    "two relations": (CIRCLE.replace("pi*R", "R = 1*R"), "two relations"),
+    "unknown function": (CIRCLE.replace("pi*R", "eval(R)*R"), "not a function"),
+    "deep": (CIRCLE.replace("pi*R", "(" * 60 + "R"), "nested deeper"),
+    "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "not a verdict"),
+    "conventions": (CIRCLE + "conventions = 3\n", "not a list"),
+    "key of a convention": (
+        CIRCLE + 'conventions = [{ what = "w", contradicts = "c", symbol = 1 }]\n',
+        "'symbol'",
+    ),
+    "likeness": (CIRCLE.replace("A = pi", "A ~ pi"), "~ cannot be checked"),
+    "unread LaTeX": (CIRCLE.replace("printed", "latex"), "p is neither"),
+    "unknown spelling": (
+        CIRCLE.replace('printed = "A = pi*R**2"', "latex = 'A = T'\nunderstood = 'A = B'")
+        + "[latex]\nT = 'B'\n",
+        "the symbol B has no meaning",
+    ),
+    "body": (CIRCLE + 'body = "sphere"\n', "not in the library"),
+    "own symbol": (CIRCLE + "symbols = { R = 'r*q' }\n", "the symbol R has no meaning in this"),
+    "require": (CIRCLE + "require = 'q > 0'\n", "require: the claims file does not define q"),
+    "limit": (CIRCLE + "as = 'r - 0'\n", "as: this is not a limit"),
+    "part": (CIRCLE.replace("printed", "latex") + "part = 9\n", "part = 9"),
+    "given": (
+        CIRCLE + "given = ['nothing']\n",
+        "given: 'nothing' is not the label of an earlier claim",
+    ),
+    "no flag": (
+        CIRCLE + "leading = false\n",
+        "leading = False is not allowed",
+    ),
+    "symbol": (CIRCLE + "symbols = { R = true }\n", "'R' is True, which is not a string"),
+    "bound": (CIRCLE + "allowed = { r = 1979-05-27 }\nbeyond = { r = 'k' }\n", "not a string"),
+    "range": (CIRCLE + "ranges = { r = [false, true] }\n", "r does not have two ends"),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("printed", "reason"),
+    [
+        ("limit(integral(exp(-s**2*r)/(s + 1)**r, s, r, k), r, oo) = k", "within 1 s"),
+        ("limit(Piecewise((r, r > x), (x**r, True)), r, x) = k", "could not be read"),
+    ],
+)
+def test_what_sympy_does_not_know_leaves_the_others_judged(
+    tmp_path: Path, printed: str, reason: str
+) -> None:
+    """The first never ends, and the second raises an error inside SymPy."""
+    other, it = told(tmp_path, "seconds = 1\n" + CIRCLE + one(printed))
+    assert (other["verdict"], it["verdict"]) == ("holds", "unchecked")
+    assert reason in it["reason"]
+
+
+@pytest.mark.parametrize("case", BAD_CLAIMS)
+def test_what_concerns_one_claim_leaves_the_others_judged(case: str, tmp_path: Path) -> None:
+    text, part = BAD_CLAIMS[case]
+    right = '[[claims]]\nlabel = "right"\nprinted = "A = pi*R**2"\n'
+    done = run(written(tmp_path, text + right), "--format", "json")
+    wrong, other = json.loads(done.stdout)
+    assert (done.exit_code, other["verdict"], wrong["verdict"]) == (1, "holds", "unchecked")
+    assert part in wrong["reason"]
+    assert "claims.toml" not in wrong["reason"]
+
+
+@pytest.mark.parametrize("given", ["nowhere.toml", ".", "a" * 300, "bytes.toml"])
+def test_a_file_that_is_none(given: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe\x00")
+    done = run(given)
+    assert done.exit_code == 2
+    if given == "bytes.toml":
+        assert "UTF-8" in done.stderr
+        assert "check paper.tex --draft FILE` writes one" in done.stderr  # a wheel has no example
+
+
+def test_an_unknown_label_shows_the_nearest(tmp_path: Path) -> None:
+    done = run(written(tmp_path, CIRCLE), "--explain", "aera")
+    assert (done.exit_code, "area" in done.stderr) == (2, True)
+
+
+# ------------------------------------------------------------------ verdicts
+
+TWO = """
+[variables]
+a = { low = 1, high = 2 }
+b = { low = 1, high = 2 }
+[symbols]
+B = "integral(s*a, s, 0, b)"
+"""
+
+
+@pytest.mark.usefixtures("unmended")
+@pytest.mark.parametrize(
+    ("printed", "expected"),
+    [
+        ("cosh(40*a)**2 - sinh(40*a)**2 = 1", {"holds"}),
+        ("sqrt(10**26 + a**2) - 10**13 = a**2/(sqrt(10**26 + a**2) + 10**13)", {"holds"}),
+        ("sqrt(1 + exp(-2000*a)) - 1 = sqrt(1 + exp(-3000*a)) - 1", {"unchecked"}),
+        (
+            "10**(-40)*(1 - 1/(1 + 10**(-20)*a)) = 10**(-40)*(1 - 1/(1 + 10**(-20)*b))",
+            {"fails", "unchecked"},
+        ),
+        ("integral(sqrt(1 + exp(-2000*s)) - 1, s, 1, 2) = 0", {"unchecked"}),
+        ("sqrt(a**2 + 2*a*b + b**2) - a - b = 1", {"fails"}),
+        ("abs(x) = x", {"fails"}),
+        ("sqrt(x) < 3", {"numerical"}),  # where a side is not real nothing is said
+        ("sqrt(1 - a) < 3", {"unchecked"}),  # 1 - a is negative everywhere
+        ("a >= a", {"holds"}),
+        ("a >= a + b", {"fails"}),
+        ("a > a", {"fails"}),
+    ],
+)
+def test_lost_digits_decide_nothing_and_inequalities_mean_what_they_say(
+    tmp_path: Path, printed: str, expected: set[str]
+) -> None:
+    (it,) = told(tmp_path, TWO + one(printed))
+    assert it["verdict"] in expected
+    assert it["printed"] == printed
+
+
+# The inner integral is xi**2/2, and a b**2/2 in B.  A cap of height a - b**2/a at the distance b
+# from its axis has the volume pi a**3/2.  t is a symbol without a meaning, which an integral over t
+# does not need.
+@pytest.mark.slow
+@pytest.mark.usefixtures("unmended")
+@pytest.mark.parametrize(
+    ("printed", "expected", "reason"),
+    [
+        ("integral(integral(s*xi, s, 0, xi), xi, 0, 1) = 1/8", "numerical", ""),
+        ("integral(integral(s*xi, s, 0, xi), xi, 0, 1) = 1/4", "fails", ""),
+        ("integral(B*xi, xi, 0, 1) = a*b**2/4", "numerical", ""),
+        ("a = integral(s, B, 0, 1)", "unchecked", "also used outside"),
+        ("integral(a, a, 0, 1) = 1/2", "numerical", ""),
+        ("V = integral(2*pi*b*h, b, 0, a)", "numerical", ""),
+        ("V = integral(pi*b*h, b, 0, a)", "fails", ""),
+        ("V = integral(2*pi*t*k, t, 0, a)", "numerical", ""),
+        ("V = integral(2*pi*t*w, t, 0, a)", "unchecked", "the symbol t"),
+    ],
+)
+def test_variables_of_integration(tmp_path: Path, printed: str, expected: str, reason: str) -> None:
+    text = TWO + 'h = "a - b**2/a"\nV = "pi*a**3/2"\nk = "a/2"\nt = ""\nw = "k + t"\n'
+    (it,) = told(tmp_path, text + one(printed))
+    assert it["verdict"] == expected, it["reason"]
+    assert reason in it["reason"]
+
+
+@pytest.mark.parametrize("name", ["t", "tau_1"])
+def test_a_spelling_may_belong_to_a_variable_of_integration(tmp_path: Path, name: str) -> None:
+    entry = "latex = 'a = 2 a \\int_0^1 T dT'\npart = 1\n"
+    entry += f"understood = 'a = 2*a*integral({name}, {name}, 0, 1)'"
+    (it,) = told(tmp_path, f"{TWO}[latex]\n'T' = '{name}'\n{one(entry)}")
+    assert it["verdict"] == "numerical", it["reason"]
+
+
+WEDGE = """
+body = "wedge"
+seconds = 100
+[variables]
+a = "left edge"
+c = "right edge"
+[symbols]
+A = "a"
+"""
+
+
+CONVENTION = "{ what = 'A at the right', symbols = { A = 'c' }, contradicts = 'p' }"
+UNIT = "[variables]\nx = { low = 0, high = 1 }\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "expected", "corrected"),
+    [
+        (WEDGE + one("load(A, c) = E_star*phi*sqrt(a*c)"), "holds", None),
+        (
+            WEDGE + one("load(a, c) = 2*E_star*phi*sqrt(a*c)"),
+            "fails",
+            "load(a, c) = E_star*phi*sqrt(a*c)",
+        ),
+        (  # A names the left edge; counted from the other side it is the right one
+            f"{WEDGE}{one('load(A, a) = E_star*phi*sqrt(a*c)')}conventions = [{CONVENTION}]\n",
+            "convention",
+            "load(A, a) = E_star*a*phi",
+        ),
+        (UNIT + one("abs(x) = x"), "numerical", None),  # a place may have a range
+    ],
+)
+def test_formulas_of_the_body_and_ranges_of_places(
+    tmp_path: Path, text: str, expected: str, corrected: str | None
+) -> None:
+    """The wedge's load is E* phi sqrt(a c), eq. (25) of the paper."""
+    (it,) = told(tmp_path, text)
+    assert (it["verdict"], it["corrected"]) == (expected, corrected)
+    assert f"'{it['printed']}'" in text
+
+
+# ------------------------------------------------------------------ formulas
+
+a, c = symbols("a c")
+NAMES = Names("here", {"a": a, "c": c, "s": Symbol("s", real=True)}, {"load": 2})
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("-a**2", -(a**2)),
+        ("a**-1/2", 1 / a / 2),
+        ("elliptic_k(a**2)", elliptic_k(a**2)),
+        ("integral(s*a, s, 0, c)", Integral(NAMES.symbols["s"] * a, (NAMES.symbols["s"], 0, c))),
+    ],
+)
+def test_formulas(text: str, value: object) -> None:
+    assert formula(text, NAMES) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "column"),
+    [
+        ("a + z", 4),
+        ("load(a)", 0),
+        ("sqrt(a, c)", 0),
+        ("(a", 2),
+        ("a = c + z", 8),
+    ],
+)
+def test_a_message_points_to_the_place(text: str, column: int) -> None:
+    with pytest.raises(BadFormula) as caught:
+        (equation if "=" in text else formula)(text, NAMES)
+    assert caught.value.column == column
+    assert caught.value.message.splitlines()[-1].index("^") == column + 4
+
+
+# ------------------------------------------------------------------ LaTeX
+
+SPELLINGS = {"a": "a", "c": "c", "P": "P", "f": "f", "Q": "Q", "E^*": "E_star", r"\Delta Q": "dQ"}
+
+
+def latex(text: str) -> str:
+    return Latex("here", text, SPELLINGS).understood()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("text", "understood"),
+    [
+        (r"c = a \sqrt{1 - \frac{Q}{f P}}", "c = a*sqrt(-Q/(P*f) + 1)"),
+        (r"c = \sin(a) \cdot Q + \ln\frac{a}{Q}", "c = sin(a)*Q + log(a/Q)"),
+        (r"c = \sin^2(\exp(a Q)) + \cos^{2} a", "c = sin(exp(a*Q))**2 + cos(a)**2"),
+        (r"c = " + "a(Q)+" * 20 + "a", "c = 20*a*Q + a"),
+        (r"c = a^{2}P", "c = a**2*P"),
+        (r"c = \frac12 a", "c = a/2"),
+        (r"c = \sqrt aP", "c = sqrt(a)*P"),
+        (r"c = |a| + |P||f|", "c = abs(a) + abs(P)*abs(f)"),
+        (r"c = {a}^{2}", "c = a**2"),
+    ],
+)
+def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
+    names = Names("here", {n: Symbol(n) for n in set(SPELLINGS.values())}, {})
+    assert equation(latex(text), names) == equation(understood, names)
+
+
+@pytest.mark.parametrize(
+    ("text", "part", "column"),
+    [
+        (r"c = a \gamma", r"\gamma is neither a declared symbol", 6),
+        (r"c = a = P", "two relations", 6),
+        (r"c = a -- P", "cannot be read", 7),
+        (r"c = 1/2 a", "belongs to the denominator", 8),
+        (r"c = 1/a^{2} Q", "belongs to the denominator", 12),
+        (r"c = {a + P}^2", "not printed", 4),
+        (r"c = \sin{a + P}", "not printed", 8),
+        (r"c = \frac123", "numerator and denominator", 9),
+        (r"c = {|a}|", "not closed", 5),
+        (r"c = \int_0^1 a", "the end of this integral", 4),
+        ("c = " + "a" * 2500, "2504 characters", 2000),
+        (r"c = \sin(a) Q", "the end of the function's argument", 12),
+        (r"c = \log{a} Q", "the end of the function's argument", 12),
+        (r"c = \sin(a)^2", "the end of the function's argument", 11),
+        (r"c = \sin^{-2} Q", "may mean its inverse", 8),
+        (r"c = \sin", "no argument", 8),
+        (r"c = Q^12", "one character", 6),
+        (r"c = a^{Q}^{2}", "a power of a power", 9),
+        (r"c = 2 3 a", "two numbers", 6),
+        (r"c = 3\frac12", "a numerical fraction", 5),
+        (r"c = a^{Q", "not closed", 6),
+    ],
+)
+def test_what_cannot_be_read_is_shown(text: str, part: str, column: int) -> None:
+    with pytest.raises(BadFormula) as caught:
+        latex(text)
+    assert part in caught.value.message
+    assert caught.value.column == column
+
+
+def test_what_was_understood_must_be_accepted(tmp_path: Path) -> None:
+    claim = "[[claims]]\nlabel = 'area'\nlatex = 'A = \\pi R^2'\n"
+    path = written(tmp_path, HEAD + claim)
+    (reading,) = open_readings(path)
+    assert "A = " in reading.understood
+    (it,) = told(tmp_path, HEAD + claim)
+    assert it["verdict"] == "unchecked"
+    assert reading.understood in it["reason"]
+    for understood, verdict in ((reading.understood, "holds"), ("A = 2*pi*R**2", "unchecked")):
+        (it,) = told(tmp_path, f"{HEAD}{claim}understood = '{understood}'\n")
+        assert it["verdict"] == verdict
+
+
+TO_ACCEPT = (
+    HEAD
+    + """
+[[claims]]   # with words behind it
+label = "first"
+latex = 'A = \\pi R^2'
+
+# a remark before the second
+[[claims]]
+label = "second"
+understood = "A = R"
+latex = 'A = \\pi R R'
+[[claims]]
+label = "third"
+printed = "A = pi*R**2"
+"""
+)
+
+
+def test_readings_are_accepted_one_by_one(tmp_path: Path) -> None:
+    path = written(tmp_path, TO_ACCEPT)
+    assert "0 accepted, 2 left" in run(path, "--accept", answers="n\nq\n").output
+    assert path.read_text() == TO_ACCEPT
+    assert "1 accepted, 1 left" in run(path, "--accept", answers="n\ny\n").output
+    assert [each.label for each in open_readings(path)] == ["first"]
+    assert "1 accepted, 0 left" in run(path, "--accept", answers="y\n").output
+    assert run(path).exit_code == 0
+    before, after = (tomllib.loads(text)["claims"] for text in (TO_ACCEPT, path.read_text()))
+    for claim in (*before, *after):
+        claim.pop("understood", None)
+    assert before == after
+    assert "# a remark before the second" in path.read_text()
+
+
+def test_what_a_verdict_depends_on_is_shown_with_the_reading(tmp_path: Path) -> None:
+    text = HEAD + (
+        "[[claims]]\nlabel = 'limit'\nlatex = 'A \\sim R'\nas = 'r -> 0'\norder = 2\n"
+        "[[claims]]\nlabel = 'rest'\nlatex = 'A \\sim R'\nrequire = ['r > k', 'k > 0']\n"
+        "given = ['limit']\n[[claims]]\nlabel = 'unread'\nlatex = 'A = R ?'\n"
+        "[[claims]]\nlabel = 'part'\nlatex = 'A = R'\npart = 2\n"
+        "[[claims]]\nlabel = 'key'\nlatex = 'A = R'\nrequier = 'r > k'\n"
+    )
+    path = written(tmp_path, text)
+    first, second = run(path, "--accept", answers="n\ny\n").output.split("2 of 2")
+    for line in ("as          r -> 0", "order       2"):
+        assert line in first
+    for line in ("require     r > k and k > 0", "given       limit", "unchecked   ~ cannot be"):
+        assert line in second
+    assert "unchecked: unread: ? is neither" in second
+    assert "unchecked: part: part = 2 is not the number" in second
+    assert "unchecked: key: the key 'requier' is unknown" in second
+    assert [each["verdict"] for each in told(tmp_path, path.read_text())] == ["unchecked"] * 5
+
+
+def test_what_cannot_be_written_is_left_as_it_was(tmp_path: Path) -> None:
+    """Claims in one line have no line of their own to which a reading could be put."""
+    text = HEAD.replace("[variables]", "claims = [{ label = 'x', latex = 'A = R' }]\n[variables]")
+    path = written(tmp_path, text)
+    done = run(path, "--accept", answers="y\n")
+    assert (done.exit_code, "by hand" in done.output) == (2, True)
+    assert path.read_text() == text
+    assert [each.name for each in tmp_path.iterdir()] == [path.name]
+
+
+BODIES = """
+body = "hertz"
+[variables]
+a = { unit = "m" }
+R_1 = { unit = "m" }
+R_2 = { unit = "m" }
+[symbols]
+P = "load(a, a)"
+Q = "P/2"
+[latex]
+'\\phi' = "phi"
+"""
+RADIUS = "symbols = { R = 'R_1*R_2/(R_1 + R_2)' }\n"
+LATEX = "latex = 'Q = \\phi a E_star/2'\nunderstood = 'Q = phi*a*E_star/2'"
+
+
+@pytest.mark.parametrize(
+    ("claim", "verdict", "part"),
+    [
+        (f"body = 'none'\n{RADIUS}printed = '1/R = 1/R_1 + 1/R_2'", "holds", ""),
+        (f"{RADIUS}printed = '1/R = 1/R_1 + 1/R_2'", "holds", ""),
+        (f"{RADIUS}printed = 'P = pi*E_star*a**2/(4*R)'", "unchecked", "also contain R"),
+        ("symbols = { R = '2*R' }\nprinted = 'P = pi*E_star*a**2/(2*R)'", "holds", ""),
+        ("body = 'none'\nprinted = '(R + a)*(R - a) = R**2 - a**2'", "holds", ""),
+        ("body = 'none'\nprinted = 'Q = R'", "unchecked", "the symbol Q has no meaning in this"),
+        ("body = 'wedge'\nprinted = 'Q = phi*a*E_star/2'", "holds", ""),
+        (f"body = 'wedge'\n{LATEX}", "holds", ""),
+        (LATEX, "unchecked", "the symbol phi has no meaning"),
+    ],
+)
+def test_a_claim_may_have_another_body_or_none(
+    tmp_path: Path, claim: str, verdict: str, part: str
+) -> None:
+    """P is pi E* a**2/(4 R) under a cylinder, and E* phi a under a wedge."""
+    (it,) = told(tmp_path, BODIES + one(claim))
+    assert it["verdict"] == verdict, it["reason"]
+    assert part in it["reason"]
+
+
+@pytest.mark.parametrize("body", ["hertz", "wedge"])
+def test_implicit_equations_are_checked_as_the_page_says(body: str, tmp_path: Path) -> None:
+    """The stick zone is the contact at P - dQ/(2 f) and alpha - dsigma/(4 f E*)."""
+    (shown,) = [text for text in TOML_OF_THE_PAGE if text.startswith("[variables]\na = ")]
+    claim = "printed = 'stick_m(P, tilt(a, c), dQ, dsigma) = m'\nrequire = 'm < a and n < c'"
+    (it,) = told(tmp_path, f"body = '{body}'\n{shown}{one(claim)}")
+    assert it["verdict"] == "holds", it["reason"]
+
+
+def test_a_parameter_is_defined_as_the_page_says(tmp_path: Path) -> None:
+    (shown,) = [text for text in TOML_OF_THE_PAGE if text.startswith("[[claims]]")]
+    (it,) = told(tmp_path, BODIES + shown)
+    assert it["verdict"] == "holds", it["reason"]
+
+
+def test_what_can_be_judged_is_judged_and_the_symbol_to_define_is_named(tmp_path: Path) -> None:
+    text = CIRCLE.replace("[symbols]", '[symbols]\nT = ""\nU = "2*T"\nV = "U**2"')
+    text += '[[claims]]\nlabel = "names"\nprinted = "A = Z + W*Z"\n' + one("A = V")
+    area, names, it = told(tmp_path, text)
+    assert area["verdict"] == "holds"
+    assert "the symbols W, Z have no meaning" in names["reason"]
+    assert names["printed"] == "A = Z + W*Z"
+    assert "the symbol T has no meaning: define it" in it["reason"]
+    done = run(written(tmp_path, text))
+    assert (done.exit_code, "the symbol T has no meaning" in done.stdout) == (1, True)
+
+
+def test_the_page_lists_every_key_of_a_claim() -> None:
+    listed = set(re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", PAGE, re.MULTILINE))))
+    assert listed >= OF_A_CLAIM

@@ -1,0 +1,97 @@
+"""Geometry files: found, executed once, leaving nothing behind; what is wrong with a bad one."""
+
+import os
+import signal
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from derive.body.library import library, load_geometry
+from derive.command.errors import BadGeometryFile
+from derive.command.processes import end
+
+CYLINDER = '''"""A cylinder of one's own."""
+from derive import Geometry, parameter, x
+
+radius = parameter("radius", "radius", unit="m")
+geometry = Geometry("cylinder", g=x**2 / (2 * radius))
+'''
+
+
+@pytest.fixture
+def cylinder(tmp_path: Path) -> Path:
+    return written(tmp_path / "cylinder.py", CYLINDER)
+
+
+def written(path: Path, text: str) -> Path:
+    path.write_text(text)
+    return path
+
+
+def test_the_library_is_the_folder_and_a_body_bears_its_file_s_name_and_words() -> None:
+    assert {"hertz", "wedge"} <= set(library())
+    assert list(library()) == sorted(library())
+    for name in library():
+        body = load_geometry(name)
+        assert body.name == name and not name.startswith("_")
+        assert body.description and all(q.meaning for q in body.parameters)
+
+
+def test_a_file_is_loaded_by_text_and_by_path(cylinder: Path) -> None:
+    for given in (cylinder, str(cylinder)):
+        body = load_geometry(given)
+        assert (body.name, str(body.g)) == ("cylinder", "x**2/(2*radius)")
+        assert body.description == "A cylinder of one's own."
+
+
+def test_a_file_is_executed_once_and_leaves_nothing_behind(tmp_path: Path) -> None:
+    diary = tmp_path / "diary.txt"
+    path = written(
+        tmp_path / "body.py",
+        CYLINDER + f"with open({str(diary)!r}, 'a') as file:\n    file.write('x')\n",
+    )
+    before, writes = set(sys.modules), sys.dont_write_bytecode
+    load_geometry(path)
+    assert diary.read_text() == "x"
+    assert {p.name for p in tmp_path.iterdir()} == {"body.py", "diary.txt"}
+    assert set(sys.modules) == before
+    assert sys.dont_write_bytecode == writes
+
+
+def test_an_edited_file_is_read_again(cylinder: Path) -> None:
+    load_geometry(cylinder)
+    written(cylinder, CYLINDER.replace("(2 * radius)", "radius"))
+    assert str(load_geometry(cylinder).g) == "x**2/radius"
+
+
+@pytest.mark.parametrize("switch", [False, True])
+def test_the_bytecode_switch_is_restored_after_a_failure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, switch: bool
+) -> None:
+    monkeypatch.setattr(sys, "dont_write_bytecode", switch)
+    with pytest.raises(BadGeometryFile):
+        load_geometry(written(tmp_path / "bad.py", "geometry = ("))
+    assert sys.dont_write_bytecode == switch
+
+
+PRESSES = "import os, signal\nos.kill(os.getpid(), signal.{})\nwhile True:\n    pass\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no signal can be sent to a process of one's own")
+@pytest.mark.parametrize(
+    ("name", "handler", "error"),
+    [("SIGINT", signal.default_int_handler, KeyboardInterrupt), ("SIGTERM", end, SystemExit)],
+)
+def test_a_signal_while_a_file_is_loaded_is_no_mistake_in_the_file(
+    name: str, handler: Any, error: type[BaseException], tmp_path: Path
+) -> None:
+    number = signal.Signals[name]
+    before = signal.signal(number, handler)
+    try:
+        with pytest.raises(error):
+            load_geometry(written(tmp_path / "presses.py", PRESSES.format(name)))
+        assert signal.getsignal(number) is handler
+    finally:
+        signal.signal(number, before)

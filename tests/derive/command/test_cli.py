@@ -1,0 +1,744 @@
+"""The commands: what they print, what they write, and with which status they leave."""
+
+import os
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+from sympy import expand, sympify
+
+import derive.codegen.trial
+import derive.command.cache
+import derive.command.processes
+import derive.command.terminal
+import derive.pipeline
+import derive.proof.prove
+import derive.sheet.derivation
+from derive.body.library import library, load_geometry
+from derive.codegen.mark import MARK
+from derive.command.cli import main
+from derive.command.processes import Bounds
+from derive.pipeline import DONE, GENERATED, KEPT, STAGES
+from derive.proof.verdict import Proof, Verdict
+from derive.sheet.built import Body, by_form
+from derive.sheet.derivation import derive_law, derive_sheet, slip_series, with_closed_forms
+from derive.sheet.formulas import FormulaSheet
+from derive.sheet.notation import text_of
+from tests.commands import MODULE, ROOT, contents, done, lines, real, refused, run
+from tests.derive.bodies import assumed, sheet
+
+CYLINDER = '''"""A cylinder of one's own."""
+from derive import Geometry, parameter, x
+
+radius = parameter("radius", "radius", unit="m")
+geometry = Geometry("cylinder", g=x**2 / (2 * radius))
+'''
+
+
+@pytest.fixture
+def committed(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the package `generated` in its place."""
+    copy = tmp_path_factory.mktemp("copy") / "generated"
+    shutil.copytree(GENERATED, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    (copy.parent / "pyproject.toml").touch()  # a clone, and no installed package
+    monkeypatch.setattr(derive.pipeline, "GENERATED", copy)
+    return copy
+
+
+@pytest.fixture
+def unproven(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The pipeline without the seconds that its proofs take."""
+    monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
+    monkeypatch.setattr(derive.codegen.trial, "demand_right", lambda *_: None)
+    monkeypatch.setattr(derive.pipeline, "STRANGERS", None)  # another process would know of neither
+
+
+STUCK = (GENERATED / "full_stick.py").read_text(encoding="utf-8")
+
+
+def body_of(sheet: FormulaSheet, text: str) -> Body:
+    """A body without the seconds that its text takes."""
+    verdicts = tuple((name, Verdict.PROVEN) for name in sheet)
+    proofs = tuple((name, "proven: a stand-in for a proof") for name in sheet)
+    return Body(sheet.geometry.name, text, STUCK, 0.0, *by_form(sheet.is_closed), verdicts, proofs)
+
+
+def of_library(name: str, text: str) -> Body:
+    """A body of the library without the seconds of its derivation: its forms are the cylinder's."""
+    return replace(body_of(sheet("hertz"), text), name=name)
+
+
+@pytest.fixture
+def built(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The pipeline with modules of the library as they are committed; what it was asked to build.
+
+    In one process: another one would build in earnest.
+    """
+    texts = {name: (GENERATED / f"{name}.py").read_text() for name in library()}
+    asked = []
+
+    def build(source: str, report: Callable[[str, str], None], limit: float) -> Body:
+        asked.append(source)
+        for stage in STAGES:
+            report(source, stage)
+        if source in texts:
+            return of_library(source, texts[source])
+        made = derive_sheet(load_geometry(source))
+        return body_of(made, f"{MARK}\n# {made.geometry.g}\n")
+
+    monkeypatch.setattr(derive.pipeline, "build", build)
+    monkeypatch.setattr(derive.command.processes, "cores", lambda: 1)
+    return asked
+
+
+# ------------------------------------------------------------------ list, show, help
+
+
+@cache
+def law(name: str) -> FormulaSheet:
+    return derive_law(load_geometry(name))
+
+
+@cache
+def closed(name: str) -> FormulaSheet:
+    return with_closed_forms(law(name))
+
+
+@pytest.fixture
+def laws(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those of the library, derived once for all its listings."""
+    monkeypatch.setattr(derive.sheet.derivation, "derive_law", lambda body: law(body.name))
+    monkeypatch.setattr(
+        derive.sheet.derivation, "with_closed_forms", lambda of: closed(of.geometry.name)
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("laws")
+class TestList:
+    """`derive list`; no name and no word is cut."""
+
+    def test_it_names_every_geometry_and_its_profile(self) -> None:
+        printed = done("list")
+        assert "x**2/(2*R)" in printed
+        assert "phi*Abs(x)" in printed
+        rows = {row.split()[1]: " ".join(row.split()) for row in lines(printed) if " " in row}
+        assert rows.keys() >= {*library()}
+        assert "forward by special functions │ forward in code, from (P, M)" in rows["power"]
+        assert "closed form" in printed and "special" not in rows["hertz"]
+        assert not [line for line in printed.splitlines() if line != line.rstrip()]
+
+    def test_tables_keep_to_the_columns_that_are_asked_for(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        """Into a pipe, too."""
+        monkeypatch.setenv("COLUMNS", "120")
+        printed = done("list")
+        assert max(map(len, lines(printed))) == 120
+        assert "…" not in printed
+        assert all(line[-1] in "┓┃┩│┘" for line in lines(printed))
+        assert all(f" {name} " in printed for name in library())
+        cells = [[cell.strip() for cell in line.split("│")] for line in lines(printed)]
+        bodies = " ".join(row[-2] for row in cells if len(row) > 2)
+        assert all(" ".join(load_geometry(name).title.split()) in bodies for name in library())
+
+    @pytest.mark.parametrize("columns", [60, 80])
+    def test_without_room_for_a_table_geometries_are_listed(
+        self, columns: int, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setenv("COLUMNS", str(columns))
+        printed = done("list")
+        assert max(map(len, lines(printed))) <= columns
+        for name in library():
+            geometry = load_geometry(name)
+            for word in (name, *geometry.title.split(), *text_of(geometry.g).split()):
+                assert word in printed
+
+
+def test_the_command_is_a_module_too(tmp_path: Path) -> None:
+    """And it advises to go on in the same way."""
+    ended = real(*MODULE, "new", "body", "x**2/R", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    told = re.search(": +(.*) show body.py$", ended.stdout, re.M)
+    assert told is not None
+    ended = real("sh", "-c", f"{told[1]} --version", cwd=tmp_path)
+    assert (ended.returncode, ended.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        (".venv/bin/derive", ".venv/bin/derive"),
+        ("{here}/on path/derive", "derive"),
+        ("{else}/of mine/derive", "'{else}/of mine/derive'"),
+        ("{else}/pytest/__main__.py", "derive"),
+    ],
+)
+def test_advice_names_the_command_as_it_was_typed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, typed: str, told: str
+) -> None:
+    folders = {"here": tmp_path / "here", "else": tmp_path / "else"}
+    on_path = folders["here"] / "on path"
+    on_path.mkdir(parents=True)
+    (on_path / "derive").write_text("#!/bin/sh\n")
+    (on_path / "derive").chmod(0o755)
+    (folders["here"] / ".venv").mkdir()
+    monkeypatch.chdir(folders["here"])
+    monkeypatch.setenv("PATH", str(on_path))
+    monkeypatch.setattr(sys, "argv", [typed.format(**folders), "new"])
+    (folders["here"] / "body.py").write_text(CYLINDER)
+    advice = refused("generate", "body.py")
+    assert f"`{told.format(**folders)} generate body.py --out my_package`" in advice
+
+
+@pytest.mark.usefixtures("unproven")
+def test_show_prints_every_formula_with_its_proof() -> None:
+    printed = done("show", "hertz")
+    assert all(name in printed for name in sheet("hertz"))
+    assert "P(a, c) = pi*E_star*(a + c)**2/(16*R)" in printed
+    assert "g(x) = x**2/(2*R)" in printed
+    assert printed.count("proven: assumed by a test") == len(sheet("hertz"))
+    assert not [line for line in printed.splitlines() if line != line.rstrip()]
+
+
+@pytest.mark.usefixtures("unproven")
+def test_show_latex_prints_one_display() -> None:
+    printed = done("show", "hertz", "--latex")
+    assert printed.startswith("\\begin{aligned}\n")
+    assert printed.endswith("\\end{aligned}\n")
+    assert printed.count("{") == printed.count("}")
+    assert printed.count("&=") == len(sheet("hertz")) + 1
+    assert printed.strip() == sheet("hertz").latex
+
+
+@pytest.mark.usefixtures("unproven")
+def test_show_takes_a_file(here: Path) -> None:
+    (here / "cylinder.py").write_text(CYLINDER)
+    assert "cylinder: g(x) = x**2/(2*radius)" in done("show", str(here / "cylinder.py"))
+
+
+FORMS = [(), ("--slip", "1"), ("--html",)]
+ENDS, LOOPS = f"import os\nos.abort()\n{CYLINDER}", "while True: pass\n"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("text", "words", "form"),
+    [
+        *((ENDS, "crashed", form) for form in FORMS),
+        (LOOPS, "took longer than the limit of 1 s", ()),
+    ],
+)
+def test_show_refuses_a_file_that_ends_its_process_or_never_ends(
+    here: Path, monkeypatch: pytest.MonkeyPatch, text: str, words: str, form: tuple[str, ...]
+) -> None:
+    """As a number ends it that is too large for the library under SymPy."""
+    if text == LOOPS:
+        monkeypatch.setattr(derive.pipeline, "STRANGERS", Bounds(60, 4, {STAGES[0]: 1}))
+    (here / "mine.py").write_text(text)
+    assert f"mine.py: the stage 'reading g(x)' {words}" in refused("show", "mine.py", *form)
+    assert contents(here).keys() == {"mine.py"}
+
+
+@pytest.mark.slow
+def test_show_prints_the_same_of_a_file_as_of_the_library(here: Path) -> None:
+    shutil.copy(ROOT / "derive" / "geometries" / "hertz.py", here)
+    assert done("show", "hertz.py", "--slip", "1") == done("show", "hertz", "--slip", "1")
+
+
+def test_a_file_is_not_run_to_ask_for_a_directory(here: Path) -> None:
+    """`generate` has limits only in its other processes."""
+    (here / "ends.py").write_text("import os\nos._exit(3)\n")
+    assert "--out my_package" in refused("generate", "ends.py")
+
+
+@pytest.mark.usefixtures("unproven")
+def test_a_formula_is_never_broken_where_no_terminal_is() -> None:
+    """What a program reads stands on one line."""
+    printed = done("show", "wedge")
+    for name in sheet("wedge"):
+        assert sheet("wedge").equation(name) in printed
+
+
+@pytest.mark.usefixtures("unproven")
+def test_show_prints_closed_forms_beside_the_integrals() -> None:
+    printed = done("show", "catenary")
+    assert "Each closed form follows its integral" in printed
+    assert "load_closed" in printed
+    assert "besseli(1, (a + c)/(2*b))" in printed
+    assert "Integral(" in printed
+
+
+@pytest.mark.usefixtures("unproven")
+def test_a_limit_that_strikes_is_told() -> None:
+    result = run("show", "catenary", "--limit", "1e-9")
+    told = "No closed form found within 1e-09 s; the formulas remain integrals."
+    assert result.exit_code == 0
+    assert result.stderr == f"catenary: {told}\n"
+    assert told in result.stdout
+    assert "load_closed" not in result.stdout
+    assert run("show", "wedge", "--limit", "1e-9").stderr == ""
+
+
+@pytest.mark.slow
+def test_generate_tells_of_a_limit_that_struck(
+    here: Path, unproven: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also when the body is kept from an earlier run; another limit looks again."""
+    monkeypatch.setattr(derive.command.processes, "cores", lambda: 1)
+    told = "catenary: No closed form found within 1e-09 s; the formulas remain integrals.\n"
+    first = run("generate", "catenary", "--out", "made", "--limit", "1e-9")
+    assert (first.exit_code, first.stderr) == (0, told)
+    text = (here / "made" / "catenary.py").read_bytes()
+    again = run("generate", "catenary", "--out", "made", "--limit", "1e-9")
+    assert "kept" in again.stdout
+    assert again.stderr == told
+    third = run("generate", "catenary", "--out", "made")
+    assert "kept" not in third.stdout
+    assert "by special functions" in third.stdout
+    assert third.stderr == ""
+    assert (here / "made" / "catenary.py").read_bytes() == text
+
+
+def test_no_summary_is_cut() -> None:
+    assert "..." not in done("--help").replace("[ARGS]...", "")
+
+
+def test_help_is_given() -> None:
+    for command in main.commands:
+        assert f"  {command} " in done("--help")
+        assert done(command, "-h") == done(command, "--help")
+
+
+REFUSED = [
+    (("nope",), "nope"),
+    (("show",), "NAME"),
+    (("show", "hertz", "--nope"), "--nope"),
+    (("generate", "--jobs", "0"), "--jobs"),
+    (("show", "catenary", "--limit", "0"), "--limit 0 "),
+    (("show", "catenary", "--limit", "-inf"), "--limit -inf "),
+    (("generate", "catenary", "--limit", "nan"), "--limit nan "),
+    (("show", "hertz", "--slip", "0"), "--slip"),
+    (("show", "hertz", "--slip", "x"), "--slip"),
+    (("show", "hyperbola", "--slip", "3"), "--slip"),
+    (("show", "hertz", "--code", "c", "--latex"), "--latex"),
+    (("show", "hertz", "--code", "c", "--html"), "--html"),
+    (("show", "hertz", "--slip", "2", "--latex"), "--slip"),
+    (("show", "hertz", "--code", "perl"), "'c', 'fortran', 'javascript', 'julia', 'matlab'"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "word"), REFUSED, ids=[" ".join(a) for a, _ in REFUSED])
+def test_a_misused_command_is_refused(here: Path, arguments: tuple[str, ...], word: str) -> None:
+    assert word in refused(*arguments)
+    assert contents(here) == {}
+
+
+@pytest.mark.parametrize("arguments", [["--version"], ["generate", "--help"]])
+def test_help_does_not_wait_for_sympy(arguments: list[str]) -> None:
+    code = (
+        "import sys\nfrom derive.command.cli import main\n"
+        f"try:\n    main({arguments!r})\nexcept SystemExit as end:\n    assert not end.code\n"
+        "late = {'sympy', 'mpmath', 'numpy', 'scipy', 'derive.pipeline'} & set(sys.modules)\n"
+        "assert not late, late\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT, capture_output=True)
+
+
+# ------------------------------------------------------------------ bad input
+
+
+def test_a_profile_that_cannot_be_printed_is_bad_input(here: Path, unproven: None) -> None:
+    """g(x) is convex and derived, but float64 ends at 1.8e308."""
+    steep = CYLINDER.replace("x**2 /", "exp(999) * x**2 /")
+    (here / "large.py").write_text(f"from sympy import exp\n{steep}")
+    message = refused("generate", "large.py", "--out", "new")
+    assert "exp(999) has no finite, nonzero value in float64" in message
+    assert not (here / "new").exists()
+
+
+# ------------------------------------------------------------------ a check that falls short
+
+
+def without_proof(of: FormulaSheet) -> FormulaSheet:
+    proof = Proof(Verdict.UNKNOWN, "no point drawn")
+    return replace(of, formulas={name: replace(f, proof=proof) for name, f in of.items()})
+
+
+@pytest.mark.parametrize("arguments", [("generate", "hertz", "--out", "new"), ("show", "hertz")])
+def test_what_is_not_proven_is_neither_generated_nor_shown(
+    here: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    monkeypatch.setattr(derive.proof.prove, "prove_sheet", without_proof)
+    result = run(*arguments)
+    assert result.exit_code == 1
+    assert isinstance(result.exception, SystemExit)
+    assert "tilt of 'hertz'" in result.stderr
+    assert "no point drawn" in result.stderr
+    assert "P(a, c)" not in result.stdout
+    assert contents(here) == {}
+
+
+# ------------------------------------------------------------------ generate
+
+
+@pytest.mark.slow
+def test_the_committed_package_is_as_generated() -> None:
+    """The whole path once more, in an interpreter of its own."""
+    ended = real(*MODULE, "generate", "--check", cwd=ROOT)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "is up to date" in ended.stdout
+
+
+LONELY = """
+import sys
+for name in ("sympy", "mpmath", "derive", "generated", "click", "rich", "ruff"):
+    sys.modules[name] = None
+from mine import cylinder
+print(repr(float(cylinder.load(1.0, 1.0, E_star=4.0, radius=0.5))))
+print(repr(float(cylinder.contact(2.0, 1.0, E_star=4.0, radius=0.5).alpha)))
+"""
+
+
+@pytest.mark.slow
+def test_a_file_becomes_a_package_that_stands_alone(tmp_path: Path) -> None:
+    """P = pi E* h^2/(16 R) = pi 4 4/8; alpha = M/(P R) = 1/(2/2)."""
+    (tmp_path / "cylinder.py").write_text(CYLINDER)
+    ended = real(*MODULE, "generate", "cylinder.py", "--out", "mine", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    assert "Wrote mine" in ended.stdout
+    held = contents(tmp_path / "mine")
+    assert {"__init__.py", "cylinder.py", "py.typed"} < held.keys()
+    assert not any(str(tmp_path).encode() in text for text in held.values())
+    (tmp_path / "cylinder.py").unlink()
+    lonely = [sys.executable, "-W", "error", "-c", LONELY]
+    lonely = subprocess.run(lonely, cwd=tmp_path, capture_output=True, text=True, check=True)
+    load, tilt = map(float, lonely.stdout.split())
+    assert abs(load - 6.283185307179586) < 1e-14
+    assert tilt == 1.0
+
+
+@pytest.mark.usefixtures("built")
+class TestGenerate:
+    """`derive generate` around the pipeline."""
+
+    def test_it_writes_what_has_changed_and_builds_nothing_twice(
+        self, committed: Path, built: list[str]
+    ) -> None:
+        before = contents(committed)
+        for path in committed.glob("*.*"):  # all but the library, which is written by hand
+            path.unlink()
+        printed = done("generate")
+        assert "Wrote" in printed and "kept" not in printed
+        assert printed.count("0.0 s") == len(library())
+        assert all(name in printed for name in library())
+        assert contents(committed) == before
+        times = {p: p.stat().st_mtime_ns for p in [committed, *committed.iterdir()]}
+        printed = done("generate")
+        assert "Nothing to change" in printed
+        assert printed.count("kept") == len(library())
+        assert {p: p.stat().st_mtime_ns for p in times} == times
+        assert built == [*library()]
+        assert "kept" not in done("generate", "--fresh")
+        assert built == [*library()] * 2
+        (committed / "hertz.py").write_text(f"{MARK}\nold = 1\n")
+        done("generate", "hertz")
+        assert contents(committed) == before
+
+    def test_out_holds_what_was_asked_for_last_and_no_more(self, here: Path) -> None:
+        assert "Removed" not in done("generate", "wedge", "--out", "new")
+        assert "Removed wedge.py: name all bodies" in done("generate", "hertz", "--out", "new")
+        own = {n for n in contents(here / "new") if not n.startswith(("_", "runtime/"))}
+        assert own == {"edge.py", "hertz.py", "full_stick.py", "py.typed", "files.sha256"}
+
+    def test_out_may_be_a_link_to_a_directory(self, here: Path) -> None:
+        (here / "there").mkdir()
+        (here / "link").symlink_to(here / "there")
+        done("generate", "hertz", "--out", "link")
+        assert (here / "link").is_symlink()
+        assert "hertz.py" in contents(here / "there")
+
+    @pytest.mark.skipif(sys.platform == "win32", reason="devices and rights of Unix")
+    def test_nothing_is_kept_where_others_may_write(
+        self, here: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        (here / "open").mkdir()
+        (here / "open").chmod(0o777)
+        remedy = ": run `export DERIVE_CACHE=~/derive-cache` to use a directory of your own\n"
+        for folder, why in (
+            ("open", "because other users can write to it"),
+            ("/dev/full", "because it is not a directory"),
+            ("own", ""),
+        ):
+            monkeypatch.setenv("DERIVE_CACHE", folder)
+            result = run("generate", "hertz", "--out", "made")
+            assert result.exit_code == 0
+            told = f"{folder}: nothing is kept there, {why}{remedy}" if why else ""
+            assert result.stderr == told
+        assert len(contents(here / "own")) == 1
+        assert contents(here / "open") == {}
+
+    @pytest.mark.parametrize(
+        ("arguments", "word"),
+        [
+            (("cylinder.py", "twin.py", "--out", "new"), "two geometries are named 'cylinder'"),
+            (("hertz", "clash.py", "--out", "new"), "two geometries are named 'hertz'"),
+            (("hertz", "--out", "cylinder.py/new"), "new"),
+            (("hertz", "--out", "link"), "'link', which is a broken link"),
+            (("hertz", "--out", "link/deeper"), "'link', which is a broken link"),
+        ],
+        ids=" ".join,
+    )
+    def test_two_bodies_of_one_name_a_folder_in_a_file_and_broken_links_are_refused(
+        self, here: Path, arguments: tuple[str, ...], word: str
+    ) -> None:
+        for name, body in (("cylinder", "cylinder"), ("twin", "cylinder"), ("clash", "hertz")):
+            (here / f"{name}.py").write_text(CYLINDER.replace('"cylinder"', f'"{body}"'))
+        (here / "link").symlink_to(here / "there")
+        before = contents(here)
+        assert word in refused("generate", *arguments)
+        assert contents(here) == before
+        assert not (here / "there").exists()
+
+
+@pytest.mark.usefixtures("built")
+class TestCheck:
+    """`derive generate --check`."""
+
+    def test_it_passes_and_never_opens_what_was_kept(
+        self, committed: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        """Which may be anything: `generate` cannot know."""
+
+        def refuse(*_: object) -> None:
+            raise AssertionError("the cache was read")
+
+        monkeypatch.setattr(derive.command.cache.Cache, "get", refuse)
+        assert "is up to date" in done("generate", "--check")
+
+    @pytest.mark.parametrize(
+        ("name", "text"),
+        [
+            ("wedge.py", f"{MARK}\nmine = 1\n"),
+            ("py.typed", "mine"),
+            ("__init__.py", None),
+            ("old.py", f"{MARK}\n"),
+            ("notes.txt", "mine"),
+        ],
+    )
+    def test_it_names_the_one_file_that_is_changed_missing_or_not_generated(
+        self, committed: Path, name: str, text: str | None
+    ) -> None:
+        if text is None:
+            (committed / name).unlink()
+        else:
+            (committed / name).write_text(text)
+        before = contents(committed)
+        result = run("generate", "--check")
+        assert result.exit_code == 1
+        others = {path.name for path in committed.iterdir()} - {name}
+        assert name in result.stdout
+        assert not {line.partition(": ")[0] for line in lines(result.stdout)} & others
+        assert ("-mine = 1" in result.stdout) == (name == "wedge.py")
+        assert "derive generate" in result.stdout
+        assert contents(committed) == before
+
+    def test_a_directory_of_one_s_own_is_checked_and_stays_absent(self, here: Path) -> None:
+        check = ("generate", "hertz", "--out", "new", "--check")
+        assert run(*check).exit_code == 1
+        assert contents(here) == {}
+        done(*check[:-1])
+        assert run(*check).exit_code == 0
+        (here / "new" / "hertz.py").write_text(f"{MARK}\n")
+        result = run(*check)
+        assert result.exit_code == 1
+        assert "hertz.py" in result.stdout
+        assert "derive generate hertz --out new" in result.stdout
+
+
+# ------------------------------------------------------------------ several processes
+
+WAITS = f"""import os, time
+from pathlib import Path
+Path("waits", str(os.getpid())).touch()
+time.sleep(600)
+{CYLINDER}"""
+
+
+@pytest.mark.slow
+def test_bad_input_is_told_by_several_processes_as_by_one(here: Path) -> None:
+    """The other body is not waited for."""
+    (here / "waits").mkdir()
+    (here / "waits.py").write_text(WAITS.replace('"cylinder"', '"waits"'))
+    (here / "concave.py").write_text(CYLINDER.replace("g=x", "g=-x"))
+    one = run("generate", "concave.py", "hertz", "--out", "new", "--jobs", "1")
+    began = time.perf_counter()
+    two = run("generate", "waits.py", "concave.py", "wedge", "--out", "new", "--jobs", "2")
+    assert time.perf_counter() - began < 60
+    assert (one.exit_code, two.exit_code) == (2, 2), two.output
+    assert one.stderr == two.stderr
+    assert "not convex" in two.stderr and len(lines(two.stderr)) == 1
+    assert not (here / "new").exists()
+
+
+INTERRUPTIBLE = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)  # even where the tests run in background
+from derive.command.cli import main
+main(["generate", "waits.py", "waits_too.py", "hertz", "--out", "new", "--jobs", "2"])
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="Ctrl-C is sent to a group of processes")
+@pytest.mark.parametrize(
+    ("kind", "status", "words"), [(signal.SIGINT, 130, ["Interrupted"]), (signal.SIGTERM, 143, [])]
+)
+def test_a_signal_ends_every_process_and_writes_nothing(
+    here: Path, kind: int, status: int, words: list[str]
+) -> None:
+    """Both processes are in the middle of their bodies."""
+    (here / "waits").mkdir()
+    for name in ("waits.py", "waits_too.py"):
+        (here / name).write_text(WAITS.replace('"cylinder"', f'"{name.removesuffix(".py")}"'))
+    before = sorted(p.name for p in here.iterdir())
+    started = subprocess.Popen(
+        [sys.executable, "-c", INTERRUPTIBLE],
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    until = time.monotonic() + 60
+    while len([*(here / "waits").iterdir()]) < 2 and time.monotonic() < until:
+        assert started.poll() is None, started.communicate()
+        time.sleep(0.05)
+    os.killpg(started.pid, kind)
+    stdout, stderr = started.communicate(timeout=60)
+    assert started.returncode == status
+    assert stdout == ""
+    assert [told for told in lines(stderr) if not told.startswith("Still working")] == words
+    assert sorted(p.name for p in here.iterdir()) == before
+    for pid in (here / "waits").iterdir():
+        with pytest.raises(ProcessLookupError):
+            os.kill(int(pid.name), 0)
+
+
+# ------------------------------------------------------------------ the bar
+
+
+def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[Mapping[str, object]] = []
+    monkeypatch.setattr("rich.progress.Progress.update", lambda bar, task, **now: told.append(now))
+    with derive.command.terminal.progress(3, STAGES) as step:
+        for body, stage in [
+            ("a", KEPT),
+            ("b", STAGES[0]),
+            ("c", STAGES[0]),
+            ("b", STAGES[3]),
+            ("c", DONE),
+            ("b", DONE),
+        ]:
+            step(body, stage)
+    assert [now["completed"] for now in told] == [6, 6, 6, 9, 15, 18]
+    assert [now["description"] for now in told][1:4] == [
+        "b: reading g(x)",
+        "c: reading g(x), 1 more in progress",
+        "b: proving, 1 more in progress",
+    ]
+
+
+@pytest.mark.parametrize("variable", ["FORCE_COLOR", "TTY_COMPATIBLE"])
+def test_what_moves_is_left_out_of_a_pipe(
+    variable: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Spinner and bar, however colours are asked for."""
+    monkeypatch.setenv(variable, "1")
+    with derive.command.terminal.status("reading") as update:
+        update("a: reading g(x)")
+    with derive.command.terminal.progress(1, STAGES) as step:
+        step("a", STAGES[0])
+    assert capsys.readouterr().err == ""
+
+
+def test_what_takes_long_is_told_once_where_nothing_moves(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(derive.command.terminal, "PATIENCE", 0.05)
+    with derive.command.terminal.progress(1, STAGES) as step:
+        step("a", STAGES[3])
+        time.sleep(0.2)
+    with derive.command.terminal.status("reading") as update:
+        update("b: reading g(x)")
+        time.sleep(0.2)
+    with derive.command.terminal.status("reading"):
+        pass
+    time.sleep(0.2)
+    first, second = capsys.readouterr().err.splitlines()
+    assert first.endswith(" 0.05 s: a: proving")
+    assert second.endswith(" 0.05 s: b: reading g(x)")
+
+
+class TestSlip:
+    """`derive show NAME --slip ORDER`."""
+
+    def test_it_prints_the_terms_of_both_edges_and_groups_and_continues_long_ones(self) -> None:
+        printed = done("show", "hertz", "--slip", "2")
+        assert max(map(len, printed.splitlines())) <= 96
+        shown = printed.replace("\n    ", " ").splitlines()
+        assert [line.split(":")[0] for line in shown if ":" in line] == [
+            *(f"d_{side}, order {order}" for side in ("left", "right") for order in (1, 2)),
+            "kappa_left, kappa_right",
+        ]
+        assert "D_left = K_T_left/(K_N_left*f*kappa_left)" in shown
+        assert "K_N_left = E_star*sqrt(a + c)/(2*R)" in shown
+        terms, _ = slip_series(sheet("hertz"), 2)
+        for line, term in zip(shown, [t for found in terms.values() for t in found], strict=False):
+            own = {symbol.name: symbol for symbol in term.free_symbols}
+            assert expand(sympify(line.partition(": ")[2], own) - term) == 0
+
+    def test_its_time_is_limited(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """For a body of the library, too."""
+        monkeypatch.setattr(derive.pipeline, "STRANGERS", Bounds(seconds=0.2, gigabytes=4))
+        told = refused("show", "hertz", "--slip", "2")
+        assert "took longer than the limit of 0.2 s: give a lower order" in told
+
+
+def test_code_in_another_language(unproven: None) -> None:
+    printed = done("show", "hertz", "--code", "julia")
+    assert done("show", "hertz", "--code", "Julia") == printed
+    assert "function load(a, c, E_star, R)" in printed
+
+
+def test_code_names_the_command_that_prints_it(here: Path, unproven: None) -> None:
+    (here / "my body.py").write_text(CYLINDER)
+    printed = done("show", "my body.py", "--code", "c")
+    command = re.search("`derive (.*)`", printed)
+    assert command is not None
+    assert done(*shlex.split(command[1])) == printed
+
+
+EXAMPLE = str(ROOT / "examples" / "cattaneo_mindlin.toml")
+
+
+def test_findings_as_a_page(here: Path) -> None:
+    printed = done("check", EXAMPLE, "--html", "page.html")
+    assert "stick zone: fails: correct is c = a*sqrt(1 - Q/(P*f))" in printed
+    assert "half-width" in (here / "page.html").read_text()
+
+
+def test_an_explanation_is_no_wider_than_its_words(here: Path) -> None:
+    printed = done("check", EXAMPLE, "--explain", "half-width")
+    words, _, table = printed.partition("numbers")
+    assert all(line == line.rstrip() for line in words.splitlines())
+    assert max(map(len, lines(table))) < 200

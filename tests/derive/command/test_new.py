@@ -1,0 +1,329 @@
+"""`derive new`: units found, the file written whole or not at all, and loaded as what was read."""
+
+import ast
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from ruff import find_ruff_bin
+
+from derive.body.library import load_geometry
+from derive.command.cli import main
+from derive.command.errors import BadProfile, BadTarget, OpenUnits
+from derive.command.new_geometry import NEUTRAL, Wanted, draft
+from derive.command.target import place, write_new
+from derive.reading.lengths import units
+from derive.reading.profile import read
+from tests.derive.bodies import BODIES, geometry
+
+CYLINDER = '''"""Profile g(x) = x**2/(2*R)."""
+
+from derive import Geometry, parameter, x
+
+R = parameter("R", "parameter of the profile", unit="m")
+geometry = Geometry("cylinder", g=x**2 / (2 * R))
+'''
+
+
+@pytest.fixture
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
+    """The command in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+
+    def new(*arguments: str) -> Result:
+        return CliRunner().invoke(main, ["new", *arguments])
+
+    return new
+
+
+@pytest.fixture
+def run_here(run: Callable[..., Result], monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
+    """The same without the seconds that another process takes."""
+    monkeypatch.setattr(
+        "derive.command.new_in_process.in_processes",
+        lambda task, items, *_: [task(item, lambda *_: None) for item in items],
+    )
+    return run
+
+
+def held(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def raising(error: BaseException) -> Callable[..., None]:
+    def fail(*_: object, **__: object) -> None:
+        raise error
+
+    return fail
+
+
+FULL = OSError(28, "No space left on device")
+
+
+# Units
+
+
+@pytest.mark.parametrize(
+    ("text", "given_units", "found"),
+    [
+        ("x**2/(2*R)", {}, {"R": "m"}),
+        ("Abs(x)**(4/3)*C**(1/3)", {}, {"C": "1/m"}),
+        ("C*Abs(x)**k", {}, {"C": "m**(1 - k)", "k": "-"}),
+        ("b*exp(x*k)", {}, {"b": "m", "k": "1/m"}),
+        ("x*sin(phi) + x*cos(psi)", {}, {"phi": "rad", "psi": "rad"}),
+        ("Piecewise((x**2/R, x < b), (phi*x, True))", {}, {"R": "m", "b": "m", "phi": "rad"}),
+        ("Piecewise((0, Abs(x)*phi < b), (b, True))", {}, {"phi": "rad", "b": "m"}),
+        # open, and taken for lengths
+        ("x**2*b/(R*k)", {}, {"R": "m", "b": "m", "k": "m"}),
+        # nothing agrees: refused later
+        ("x + x**2/R + 1", {}, {"R": "m"}),
+        # what is given is kept
+        ("phi*x**2/R", {"R": "m"}, {"R": "m", "phi": "rad"}),
+        ("phi*x**2/R", {"phi": "1/m"}, {"R": "-", "phi": "1/m"}),
+        ("x**2/(2*R)", {"R": "N/Pa/m"}, {"R": "N/Pa/m"}),
+    ],
+)
+def test_units_follow_from_g_being_a_length(
+    text: str, given_units: dict[str, str], found: dict[str, str]
+) -> None:
+    assert units(read(text), given_units) == found
+
+
+@pytest.mark.parametrize(
+    ("text", "parameters"), [("phi*x**2/R", ("R", "phi")), ("x**2*C*D*F", ("C", "D", "F"))]
+)
+def test_units_that_stay_open_are_asked_for(text: str, parameters: tuple[str, ...]) -> None:
+    with pytest.raises(OpenUnits) as caught:
+        draft(Wanted("body", text))
+    assert caught.value.parameters == parameters
+    assert set(caught.value.enough) < set(parameters)
+    assert f"--unit {caught.value.enough[0]}=m" in caught.value.message
+    draft(Wanted("body", text, units=dict.fromkeys(caught.value.enough, "m")))  # and this helps
+
+
+# The draft
+
+TEXTS = {
+    "hertz": "x**2/(2*R)",
+    "unequal_wedge": "Piecewise((-phi*x, x < 0), (psi*x, True))",
+    "flat_rounded": "Piecewise((0, Abs(x) - b <= 0), ((Abs(x) - b)**2/(2*R), True))",
+    "rounded_wedge": "Piecewise((x**2/(2*R), Abs(x) < b), (b*Abs(x)/R - 0.5*b**2/R, True))",
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_a_text_makes_the_body_that_was_written_by_hand(name: str, tmp_path: Path) -> None:
+    """And its file is loaded as what was read."""
+    drafted = draft(Wanted(f"my_{name}", TEXTS[name]))
+    made = drafted.geometry
+    write_new(tmp_path / "body.py", drafted.text)
+    loaded = load_geometry(tmp_path / "body.py")
+    assert (loaded.name, loaded.g, loaded.parameters) == (made.name, made.g, made.parameters)
+    assert {q.meaning for q in loaded.parameters} == {NEUTRAL}
+    assert made.name == f"my_{name}"
+    assert (made.g - geometry(name).g).simplify() == 0
+    by_hand = {p.name: p.unit for p in BODIES[name].g.free_symbols if p.name != "x"}
+    assert {q.name: q.unit for q in made.parameters} == by_hand
+
+
+def test_the_file_is_like_those_of_the_library() -> None:
+    text = "Piecewise((0, abs(x) <= b), ((Abs(x)-b)**2/(2*R), True))"
+    made = draft(Wanted("flat", text, title="A flat punch.", meanings={"b": "half-width"})).text
+    assert made.startswith('"""A flat punch."""\n\nfrom sympy import Abs, Piecewise\n')
+    assert 'b = parameter("b", "half-width", unit="m")\n' in made
+    assert "Piecewise((0, Abs(x) <= b), ((Abs(x) - b) ** 2 / (2 * R), True))" in made
+
+
+def test_the_file_passes_the_linter() -> None:
+    text = draft(Wanted("assorted", "max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4")).text
+    strict = ["--isolated", "--line-length=100", "--select=E,F,I,D1,RUF", "-"]
+    done = subprocess.run(
+        [find_ruff_bin(), "check", *strict], input=text, text=True, capture_output=True
+    )
+    assert done.returncode == 0, done.stdout
+
+
+TITLES = [
+    *('He said "wedge"', '"""', '"""\nimport os\nos.system("touch X")\n"""', "\\", '\\"""'),
+    *("two\nlines", "null\0byte", "Schräge Flanken, π/2 − φ, 😀", "lone \udc80 surrogate"),
+]
+
+
+@pytest.mark.parametrize("words", TITLES, ids=ascii)
+def test_titles_and_meanings_are_kept_and_never_run(words: str, tmp_path: Path) -> None:
+    wanted = Wanted("body", "x**2/(2*R)", title=words, meanings={"R": words})
+    path = tmp_path / "body.py"
+    write_new(path, draft(wanted).text)
+    loaded = load_geometry(path)
+    kept = words.encode("utf-8", "replace").decode()  # a lone surrogate cannot be written later
+    assert loaded.description == kept
+    assert loaded.parameters[0].meaning == kept
+    assert held(tmp_path) == ["body.py"]
+
+
+@settings(max_examples=30)
+@given(st.text(alphabet=st.one_of(st.characters(), st.sampled_from("\"\\\n'")), min_size=1))
+def test_any_words_are_data(words: str) -> None:
+    module = ast.parse(draft(Wanted("body", "x**2/(2*R)", title=words, meanings={"R": words})).text)
+    kinds = [type(statement) for statement in module.body]
+    assert kinds == [ast.Expr, ast.ImportFrom, ast.Assign, ast.Assign]
+    title = str(ast.get_docstring(module, clean=False))
+    assert title.strip() == (words.strip() or "Profile g(x) = x**2/(2*R).")
+    call = ast.unparse(module.body[2].value)
+    assert ast.literal_eval(call.removeprefix("parameter").replace("unit=", ""))[1] == words
+
+
+def test_a_fault_of_the_reader_is_no_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
+    wanted = Wanted("body", "x**2/R")
+    monkeypatch.setattr("derive.body.geometry.check", raising(RecursionError("too deep")))
+    with pytest.raises(BadProfile) as caught:
+        draft(wanted)
+    assert caught.value.why == "has too many terms"
+
+
+# The place
+
+
+def test_a_file_goes_to_the_current_directory_a_directory_or_a_path(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "folder.py").mkdir()
+    assert place("body", None) == Path("body.py")
+    for out in ("folder/body.py", "folder.py/body.py"):
+        assert place("body", Path(out).parent) == Path(out)
+    assert place("body", Path("folder/mine.py")) == Path("folder/mine.py")
+
+
+def test_a_place_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "text.txt").write_text("kept")
+    (tmp_path / "body.py").write_text("kept")
+    (tmp_path / "link.py").symlink_to("nowhere")
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "body.py").mkdir()
+    for out in (None, "body.py", "link.py", "nowhere", "nowhere/mine.py", "text.txt", "other"):
+        with pytest.raises(BadTarget) as caught:
+            place("body", None if out is None else Path(out))
+        assert "nothing was written" in caught.value.message
+    for out in ("text.txt/mine.py", "q" * 300 + ".py", "a\0.py"):
+        with pytest.raises(BadTarget):
+            write_new(place("body", Path(out)), "new")
+    assert (tmp_path / "body.py").read_text() == (tmp_path / "text.txt").read_text() == "kept"
+
+
+@pytest.mark.parametrize(
+    ("failure", "error"), [(FULL, BadTarget), (KeyboardInterrupt(), KeyboardInterrupt)], ids=repr
+)
+def test_a_failing_write_leaves_nothing_behind(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    failure: BaseException,
+    error: type[BaseException],
+) -> None:
+    monkeypatch.setattr("derive.command.files.os.fsync", raising(failure))
+    with pytest.raises(error):
+        write_new(tmp_path / "body.py", "new")
+    assert held(tmp_path) == []
+
+
+def test_a_file_system_without_links_will_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Path, "hardlink_to", raising(FULL))
+    path = tmp_path / "body.py"
+    write_new(path, "new")
+    with pytest.raises(BadTarget):
+        write_new(path, "newer")
+    assert path.read_text() == "new"
+    monkeypatch.setattr(Path, "replace", raising(FULL))
+    with pytest.raises(BadTarget):
+        write_new(tmp_path / "other.py", "new")
+    assert held(tmp_path) == ["body.py"]
+
+
+# The command
+
+
+def test_the_command_writes_the_file_and_says_what_next(
+    run: Callable[..., Result], tmp_path: Path
+) -> None:
+    result = run("cylinder", "x**2/(2*R)")
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "cylinder.py").read_text() == CYLINDER
+    assert held(tmp_path) == ["cylinder.py"]
+    assert "R [m]  parameter of the profile" in result.stdout
+    for command in ("show cylinder.py", "generate cylinder.py --out DIRECTORY"):
+        assert f"derive {command}\n" in result.stdout
+
+
+def test_the_options_are_heard(run: Callable[..., Result], tmp_path: Path) -> None:
+    (tmp_path / "my bodies").mkdir()
+    units_ = ("--unit", "R=m", "--unit", "phi = rad")
+    meanings = ("--meaning", "phi=slope", "--meaning", "R=radius, 1/R = 1/R1 + 1/R2")
+    words = ("--title", "Blunt.", "--out", "my bodies/blunt_1.py")
+    result = run("blunt", "phi*Abs(x) + phi*x**2/R", *units_, *meanings, *words)
+    assert result.exit_code == 0, result.output
+    assert "derive show 'my bodies/blunt_1.py'" in result.stdout
+    loaded = load_geometry(tmp_path / "my bodies" / "blunt_1.py")
+    assert (loaded.name, loaded.description) == ("blunt", "Blunt.")
+    meant = {q.name: (q.meaning, q.unit) for q in loaded.parameters}
+    assert meant == {"R": ("radius, 1/R = 1/R1 + 1/R2", "m"), "phi": ("slope", "rad")}
+
+
+@pytest.mark.parametrize("text", ["-phi*Min(x, -x)", "-h0 + phi*Abs(x)", "- phi*Min(x, -x)"])
+def test_a_formula_may_begin_with_a_minus(
+    text: str, run_here: Callable[..., Result], tmp_path: Path
+) -> None:
+    result = run_here("wedge_2", text)
+    assert result.exit_code == 0, result.output
+    assert load_geometry(tmp_path / "wedge_2.py").g.has(load_geometry("wedge").parameters[0].symbol)
+
+
+REFUSED = [
+    (("body", "(lambda: open('X', 'w'))()"), "lambda is not allowed"),
+    (("body", "y**2/(2*R)"), "it does not contain x, only parameters (y, R)"),
+    (("body", "x**2/R + b - b"), "cancels out"),
+    (("body", "10*x**2"), "by a parameter, such as R in"),
+    (("body", "phi*x**2/R"), "--unit"),
+    (("body", "x**2/R", "--unit", "b=m"), "no parameter 'b'"),
+    (("body", "abs(x)", "--unit", "b=m"), "it has no parameters"),
+    (("body", "x**2/R", "--unit", "R"), "NAME=TEXT"),
+    (("body", "x**2/R", "--unit", "R=m**(1/0)"), "write a product of powers"),
+    (("body", "x**2/R", "--unit", "R=m", "--unit", "R=m"), "a second time"),
+    (("body", "x**2/R", "--out", "nowhere/"), "is not a directory"),
+    (("../body", "x**2/R"), "name of a module"),
+    (("class", "x**2/R"), "name of a module"),
+    (("contact", "x**2/R"), "reserved by the theory"),
+    (("hertz", "x**2/R"), "in the library"),
+    (("sympy", "x**2/R"), "hide"),
+    (("body",), "Missing argument"),
+    (("many", "+".join(f"x**2/R{i}" for i in range(150))), "has 150 parameters, and at most 40"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "part"), REFUSED)
+def test_bad_input_is_one_message_and_status_2(
+    arguments: tuple[str, ...], part: str, run_here: Callable[..., Result], tmp_path: Path
+) -> None:
+    demand_refused(run_here(*arguments), part, tmp_path)
+
+
+@pytest.mark.parametrize(("text", "part"), [("[bold]x", "[ ]"), ("x*\udc80", "U+DC80")])
+def test_a_refusal_comes_back_from_the_other_process(
+    text: str, part: str, run: Callable[..., Result], tmp_path: Path
+) -> None:
+    demand_refused(run("body", text), part, tmp_path)
+
+
+def demand_refused(result: Result, part: str, folder: Path) -> None:
+    assert result.exit_code == 2 and isinstance(result.exception, SystemExit)
+    assert part in " ".join(result.stderr.split())
+    assert result.stderr.count("Error:") == 1 and "Traceback" not in result.output
+    assert result.stdout == ""
+    assert held(folder) == []
