@@ -16,8 +16,8 @@ from sympy import Expr, Rational, Symbol, pi, root
 
 from derive.check.claim import Claim, Point
 from derive.check.draw import further, has_integral, is_allowed, points, variables
-from derive.check.quadrature import Value
-from derive.check.values import Undecided, evaluated
+from derive.proof.balls import Value
+from derive.proof.values import Undecided, evaluated
 
 _DIGITS = 40
 _SHARED = 25

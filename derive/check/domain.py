@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from sympy import Dummy, Expr, Poly, PolynomialError, Rational, Symbol, fraction, together
 
 from derive.check.claim import SCALE, Range
-from derive.check.kinks import switches
+from derive.proof.kinks import switches
 
 _MOST_TERMS = 500
 """The largest number of terms in a polynomial whose signs are examined."""

@@ -21,7 +21,7 @@ from sympy.logic.boolalg import Boolean
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from derive.check.claim import SCALE, Claim, Point, Range
-from derive.check.kinks import Switch, peaked, switches
+from derive.proof.kinks import Switch, peaked, switches
 from derive.reading.relation import Relation
 
 POINTS = 24

@@ -24,8 +24,8 @@ from derive.check.report import (
     signs,
     summary,
 )
-from derive.check.values import Undecided, evaluated
 from derive.check.verdict import Finding, Repair
+from derive.proof.values import Undecided, evaluated
 
 _STYLE = """
 body { font: 16px/1.45 Georgia, serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }

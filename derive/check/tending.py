@@ -17,9 +17,9 @@ from sympy import Dummy, Expr, Symbol, nan, oo, solve, zoo
 
 from derive.check.claim import Claim, Point, Verdict
 from derive.check.draw import in_order, is_allowed, points
-from derive.check.quadrature import Value
-from derive.check.values import Undecided, evaluated
 from derive.command.limit import LookAtClock
+from derive.proof.balls import Value
+from derive.proof.values import Undecided, evaluated
 
 _DISTANCES = tuple(mpf(10) ** -n for n in (4, 8, 12, 16))
 _DIGITS = 60

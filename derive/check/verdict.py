@@ -7,11 +7,11 @@ is judged like the printed one, at the same points and by the same steps.
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from itertools import chain, islice
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import mpmath
 from mpmath import mpf
@@ -40,12 +40,13 @@ from derive.check.draw import (
     touching,
     variables,
 )
-from derive.check.numbers import DIGITS, Pair, apart, both, near, numbers
+from derive.check.numbers import Pair, both, near, numbers
 from derive.check.repair import KINDS, WHOLE, Edit, edits, in_words, plain_edits, regrouped
 from derive.check.tending import Approach
-from derive.check.values import Care, Undecided, Undefined, evaluated
 from derive.check.zero import constant, vanishes, vanishes_at
 from derive.command.limit import LimitReached, LookAtClock, within
+from derive.proof.values import Undecided, Undefined, evaluated
+from derive.proof.verdict import DIGITS
 from derive.reading.relation import Relation
 
 Result = TypeVar("Result")
@@ -337,12 +338,7 @@ class _Judging:
         left, right = self.left, self.right
         if left.has(Integral) or right.has(Integral):
             left, right = left.xreplace(dict(meaning)), right.xreplace(dict(meaning))
-
-        def value(care: Care) -> Point:
-            return numbers(meaning, point, care)
-
-        pair = apart(left, right, value, point) if not self.found else None
-        return pair or both(left, right, value, point, self.integrals)
+        return both(left, right, lambda: numbers(meaning, point), point, self.integrals)
 
     def _is_true_at(self, pair: Pair) -> bool:
         relation = self.claim.relation
@@ -677,7 +673,7 @@ def _screening(claim: Claim) -> list[Point]:
 
 def _are_real(sides: list[Expr], point: Point) -> bool:
     try:
-        return all(mpmath.im(evaluated(side, point, Care.QUICK)) == 0 for side in sides)
+        return all(mpmath.im(evaluated(side, point)) == 0 for side in sides)
     except Undecided:
         return False
 
@@ -688,7 +684,7 @@ class _Screen:
     def __init__(self, claim: Claim, look: LookAtClock) -> None:
         self.claim, self.look = claim, look
         self.points = _screening(claim)
-        self.known: dict[tuple[int, int, Care], Point] = {}
+        self.known: dict[tuple[int, int], Mapping[Symbol, Any]] = {}
         self.integrals = has_integral(claim)
 
     def fits(self, left: Expr, right: Expr) -> bool:
@@ -710,17 +706,17 @@ class _Screen:
             return False
 
     def _agrees(self, left: Expr, right: Expr, n: int) -> bool:
-        def value(care: Care) -> Point:
-            return self._numbers(n, care)
+        def value() -> Mapping[Symbol, Any]:
+            return self._numbers(n)
 
         if not near(left, right, value):
             return False
         return both(left, right, value, self.points[n], self.integrals).agree
 
-    def _numbers(self, n: int, care: Care) -> Point:
-        key = (n, mpmath.mp.dps, care)
+    def _numbers(self, n: int) -> Mapping[Symbol, Any]:
+        key = (n, mpmath.mp.dps)
         if key not in self.known:
-            self.known[key] = numbers(self.claim.meaning, self.points[n], care)
+            self.known[key] = numbers(self.claim.meaning, self.points[n])
         return self.known[key]
 
 

@@ -1,51 +1,52 @@
-"""Numbers for the integrands: python-flint's ball arithmetic, ten times as fast as mpmath's.
+"""Numbers that carry a bound on their error, and functions of such numbers, by python-flint.
 
-In:  mpmath's numbers, and SymPy's expressions.
-Out: balls (a number with a bound on its rounding error), and functions of balls.
+In:  mpmath's numbers.
+Out: balls: a midpoint and a radius, real for as long as a value is real, else complex.
 
-Outside integrals, numbers are those of mpmath.  Inside an integrand, they are balls with the number
-of digits that `digits` sets.  A ball whose error is unbounded counts as not a number, so that no
-loss of digits is hidden.
+Every function below rounds outwards: the true value lies inside the ball.  A ball whose radius is
+unbounded counts as not a number.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from functools import reduce
-from operator import mul
-from typing import Any
+from operator import add, mul
+from typing import Any, TypeAlias
 
 import mpmath
-from flint import arb, ctx
-from mpmath import mpf
+import sympy
+from flint import acb, arb, ctx
+from mpmath import mpc, mpf
 from mpmath.libmp import from_man_exp
-from sympy import Expr, Float, Piecewise, Pow, Rational, S, Symbol
-from sympy.printing.pycode import MpmathPrinter
 
-from derive.body.compiled import compiled
-
-Ball = arb
+Ball: TypeAlias = arb | acb
+Value: TypeAlias = mpf | mpc
+Function: TypeAlias = Callable[[Ball], Ball]
 
 _BITS = 3.3219280948873626
 """Bits per digit."""
+_LONGEST = 64
+"""Integer powers up to this one are products, so that they have a value around zero, too."""
 
 
 def digits(count: int) -> AbstractContextManager[None]:
     """Use balls with this many digits in a `with` block."""
-    return bits(int(count * _BITS) + 5)
+    return ctx.workprec(int(count * _BITS) + 5)
 
 
-def bits(count: int) -> AbstractContextManager[None]:
-    """Use balls with this many bits in a `with` block."""
-    return ctx.workprec(count)
+def ball(value: Value | Ball) -> Ball:
+    """The exact ball of a number of mpmath."""
+    if isinstance(value, arb | acb):
+        return value
+    return acb(arb(value.real), arb(value.imag)) if isinstance(value, mpc) else arb(value)
 
 
-def ball(value: mpf) -> Ball:
-    """The exact ball of an mpf."""
-    return arb(value)
-
-
-def number(value: Ball | int) -> mpf:
-    """The exact midpoint of a ball; NaN if the ball has none."""
+def number(value: Ball | int) -> Value:
+    """The exact midpoint of a ball; NaN if it has none, and real if it may be."""
+    if isinstance(value, acb):
+        if not value.imag.contains(0):
+            return mpc(number(value.real), number(value.imag))
+        value = value.real
     value = arb(value)
     if not value.is_finite():
         return mpf("nan")
@@ -53,95 +54,106 @@ def number(value: Ball | int) -> mpf:
     return mpmath.mp.make_mpf(from_man_exp(int(mantissa), int(exponent)))
 
 
-def function_of(symbols: Sequence[Symbol], expr: Expr, shared: bool = False) -> Callable[..., Ball]:
-    """An expression as a function of balls.
-
-    shared: compute repeated subexpressions once.  This is not done for an expression with branches,
-    because a branch that is not taken may have no value.
-    """
-    return _compiled(symbols, expr, shared and not expr.has(Piecewise))
+def known_digits(value: Ball) -> int:
+    """The number of digits of a ball that are certain; none if it may be zero."""
+    return max(0, int(value.rel_accuracy_bits() / _BITS))
 
 
-def functions_of(symbols: Sequence[Symbol], exprs: Sequence[Expr]) -> Callable[..., Sequence[Ball]]:
-    """Several expressions as one function of balls; repeated subexpressions are computed once."""
-    return _compiled(symbols, exprs, True)
+def widened(value: Ball, radius: arb) -> Ball:
+    """A ball with a larger radius."""
+    more = arb(0, radius)
+    return value + more if isinstance(value, arb) else value + acb(more, more)
 
 
-def _compiled(
-    symbols: Sequence[Symbol], expr: Expr | Sequence[Expr], shared: bool
-) -> Callable[..., Any]:
-    names = [_FUNCTIONS, "math"]
-    return compiled(symbols, expr, modules=names, printer=_BallPrinter(), shared=shared)
+def _real_or_complex(name: str) -> Callable[[Ball], Ball]:
+    """A function that leaves the real numbers only where it has no real value."""
+    of_real, of_complex = getattr(arb, name), getattr(acb, name)
+
+    def of(value: Ball) -> Ball:
+        if isinstance(value, arb):
+            found = of_real(value)
+            if found.is_finite() or not value.is_finite():
+                return found
+        found = of_complex(acb(value))
+        return found.real if found.imag.is_zero() else found
+
+    return of
 
 
-def _method(name: str) -> Callable[[Ball], Ball]:
-    of = getattr(arb, name)
-    return lambda value: of(value if type(value) is arb else arb(value))
+_root_of_sign = _real_or_complex("sqrt")
 
 
-def _raised(base: Ball | int, power: Ball | int) -> Ball:
-    """base**power, also for a ball that contains zero, for which flint would use the logarithm.
-
-    An integer power is then a product.  Any other power has no value below zero; the part of the
-    ball below zero is due to rounding.
-    """
-    base = arb(base)
-    value = base**power
-    if value.is_finite() or not power > 0 or not base.contains(0):
-        return value
-    if isinstance(power, int):
-        return reduce(mul, [base] * power)
-    return arb(0).union(base.upper() ** power)
+def root(value: Ball) -> Ball:
+    """The square root; the part below zero of a ball around zero is due to rounding."""
+    if isinstance(value, arb) and value.contains(0) and not value.is_zero():
+        return arb(0).union(value.upper().sqrt())
+    return _root_of_sign(value)
 
 
-def _root(base: Ball | int) -> Ball:
-    """The square root, in the same way as in `_raised`."""
-    base = arb(base)
-    value = base.sqrt()
-    return arb(0).union(base.upper().sqrt()) if value.is_nan() and base.contains(0) else value
+def power(base: Ball, exponent: Ball | int) -> Ball:
+    """base**exponent, likewise; products, which have a value around zero, for integers."""
+    if isinstance(exponent, int):
+        if exponent < 0:
+            return 1 / power(base, -exponent)
+        if exponent > _LONGEST:
+            return base**exponent
+        return base * base if exponent == 2 else reduce(mul, [base] * exponent)
+    if isinstance(base, arb) and isinstance(exponent, arb):
+        if base.contains(0) and exponent > 0:
+            return arb(0) if base.is_zero() else arb(0).union(base.upper() ** exponent)
+        if base < 0:
+            return acb(base) ** exponent
+    return base**exponent
 
 
-_FUNCTIONS = {
+def _sign(value: Ball) -> Ball:
+    return value.sgn()
+
+
+def _piecewise(*parts: Any) -> Ball:
+    """The first value, or the midpoint's, whose condition is met: values and conditions in turn."""
+    pairs = zip(parts[::2], parts[1::2], strict=True)
+    return next((value for value, is_met in pairs if is_met), arb("nan"))
+
+
+def _compared(holds: Callable[[arb], bool]) -> Callable[[Ball, Ball], bool]:
+    """A condition, decided by the midpoints of two balls."""
+    return lambda one, other: holds((acb(one) - acb(other)).real.mid())
+
+
+FUNCTIONS: dict[type, Callable[..., Any]] = {
     **{
-        name: _method(name)
+        getattr(sympy, name): _real_or_complex(name)
         for name in (
             *("exp", "log", "sin", "cos", "tan", "asin", "acos", "atan"),
-            *("sinh", "cosh", "tanh", "asinh", "acosh", "atanh"),
+            *("sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "gamma"),
         )
     },
-    "atan2": lambda y, along: arb.atan2(arb(y), arb(along)),
-    "sign": _method("sgn"),
-    "sqrt": _root,
-    "_raised": _raised,
-    "_quotient": lambda above, below: arb(above) / below,
-    "_exactly": lambda mantissa, exponent: arb((mantissa, exponent)),
-    "pi": arb.pi,
-    "e": arb.const_e,
+    sympy.Add: lambda *values: reduce(add, values),
+    sympy.Mul: lambda *values: reduce(mul, values),
+    sympy.Abs: abs,
+    sympy.sign: _sign,
+    sympy.Heaviside: lambda value, _: (1 + _sign(value)) / 2,
+    sympy.atan2: lambda y, along: arb.atan2(arb(y), arb(along)),
+    sympy.Max: lambda *values: reduce(arb.max, values),
+    sympy.Min: lambda *values: reduce(arb.min, values),
+    sympy.elliptic_k: lambda m: _real(acb(m).elliptic_k()),
+    sympy.elliptic_e: lambda m: _real(acb(m).elliptic_e()),
+    sympy.elliptic_pi: lambda n, m: _real(acb.elliptic_pi(acb(n), acb(m))),
+    sympy.Piecewise: _piecewise,
+    sympy.And: lambda *conditions: all(conditions),
+    sympy.Or: lambda *conditions: any(conditions),
+    sympy.ITE: lambda condition, one, other: one if condition else other,
+    sympy.Not: lambda condition: not condition,
+    sympy.StrictLessThan: _compared(lambda gap: gap < 0),
+    sympy.LessThan: _compared(lambda gap: gap <= 0),
+    sympy.StrictGreaterThan: _compared(lambda gap: gap > 0),
+    sympy.GreaterThan: _compared(lambda gap: gap >= 0),
+    sympy.Equality: _compared(lambda gap: gap == 0),
+    sympy.Unequality: _compared(lambda gap: gap != 0),
 }
+"""What SymPy's functions are for balls."""
 
 
-class _BallPrinter(MpmathPrinter):
-    """Prints constants with the precision that balls have when the function is called."""
-
-    def __init__(self) -> None:
-        super().__init__({"fully_qualified_modules": False, "inline": True})
-
-    def _print_Pi(self, expr: Expr) -> str:
-        return "pi()"
-
-    def _print_Exp1(self, expr: Expr) -> str:
-        return "e()"
-
-    def _print_Rational(self, expr: Rational) -> str:
-        return f"_quotient({expr.p}, {expr.q})"
-
-    _print_Half = _print_Rational
-
-    def _print_Pow(self, expr: Pow, rational: bool = False) -> str:
-        if abs(expr.exp) == S.Half or expr.exp == -1:
-            return super()._print_Pow(expr)
-        return f"_raised({self._print(expr.base)}, {self._print(expr.exp)})"
-
-    def _print_Float(self, expr: Float) -> str:
-        sign, mantissa, exponent, _ = expr._mpf_
-        return f"_exactly({-int(mantissa) if sign else int(mantissa)}, {exponent})"
+def _real(value: acb) -> Ball:
+    return value.real if value.imag.is_zero() else value

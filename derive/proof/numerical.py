@@ -12,10 +12,10 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol, cancel
 
-from derive.proof.balls import Ball, ball, digits, number
+from derive.proof.balls import Ball, Function, ball, digits, number, root
 from derive.proof.points import Point, contacts, loads, named, numeric, numeric_along
 from derive.proof.quadrature import Contact
-from derive.proof.rule import Function, remembered
+from derive.proof.rule import remembered
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, f, w, x
@@ -123,15 +123,17 @@ class NumericalRoutes:
         yield self._at("tilt", point), contact.tilt
 
     def _load(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("load", point), contact.resultant(self._p(point))
+        p = self._p(point)
+        yield self._at("load", point), contact.integral(p)
 
     def _moment(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("moment", point), contact.resultant(self._p(point), lambda s: -s)
+        p = self._p(point)
+        yield self._at("moment", point), contact.integral(lambda s: -s * p(s))
 
     def _pressure(self, point: Point, contact: Contact) -> Pairs:
         yield self._at("pressure", point), contact.pressure(point[x])
 
-    def _p(self, point: Point) -> Callable[[mpf], mpf]:
+    def _p(self, point: Point) -> Function:
         """p(x) at one contact, remembered, since load and moment need it at the same points."""
         if named(point) not in self._pressures:
             p = numeric_along(self.sheet.flat("pressure"), x)(point)
@@ -175,8 +177,8 @@ class NumericalRoutes:
         at_s, with_x = self._stuck
         force = numeric_along(at_s, _s)(point)
         strain = numeric_along(with_x, _s)(point)
-        yield contact.integral(force), point[dQ]
-        yield contact.integral(strain) / mpmath.pi, point[dsigma] / 4
+        yield contact.over_root(force), point[dQ]
+        yield contact.over_root(strain) / mpmath.pi, point[dsigma] / 4
 
     def _stuck_between(self, name: str) -> Route:
         """Compare int 2 f p sqrt(..) over both slip zones with its value from dQ and dsigma."""
@@ -194,7 +196,7 @@ class NumericalRoutes:
 
             def weighted(place: Ball) -> Ball:
                 ratio = (place + low) / (place - high)
-                return p(place) * (ratio if sense > 0 else 1 / ratio).sqrt()
+                return p(place) * root(ratio if sense > 0 else 1 / ratio)
 
             driving = 2 * cycle[f] * contact.outside(left, right, weighted)
             yield driving, cycle[dQ] - sense * by_tension

@@ -7,21 +7,18 @@ violates an assumption is drawn again.
 
 import hashlib
 import random
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache, lru_cache
 from typing import TypeVar
 
 import mpmath
-from flint import ctx
 from mpmath import mpf
-from sympy import Add, Dummy, Expr, Integral, Mul, Piecewise, Pow, Symbol, count_ops
+from sympy import Expr, Symbol
 from sympy.logic.boolalg import Boolean
 
-from derive.body.compiled import compiled
 from derive.body.geometry import Geometry
-from derive.body.profile import has_sharp_power
-from derive.proof.balls import Ball, ball, digits, function_of, functions_of
-from derive.proof.rule import Function, integral, remembered
+from derive.proof.balls import Function
+from derive.proof.values import Undefined, evaluated, program
 from derive.proof.verdict import POINTS
 from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
@@ -116,17 +113,16 @@ def _parameters(body: Geometry, rng: random.Random) -> Point:
 
 @cache
 def numeric(expr: Expr) -> Callable[[Point], mpf]:
-    """`expr` as a function of a point, in mpmath; integrals over the contact by quadrature."""
+    """`expr` as a function of a point, to the working digits of mpmath; NaN if it has no value."""
     expr = expr.subs(e, M / P)
-    held = sorted(expr.free_symbols, key=str)
-    integrals = {found: Dummy("I") for found in sorted(expr.atoms(Integral), key=str)}
-    values = [over_contact(found) for found in integrals]
-    symbols = [*held, *integrals.values()]
-    function = _compiled(symbols, expr.xreplace(integrals), count_ops(expr) > _LONG)
+    if expr.is_infinite:
+        return lambda point: mpmath.inf * (1 if expr.is_extended_positive else -1)
 
     def at(point: Point) -> mpf:
-        given = [point[symbol] for symbol in held]
-        return mpf(function(*given, *(value(point) for value in values)))
+        try:
+            return mpf(evaluated(expr, point))
+        except Undefined:
+            return mpf("nan")
 
     return at
 
@@ -150,158 +146,13 @@ def numeric_by_steps(steps: Iterable[tuple[Symbol, Expr]], expr: Expr) -> Callab
     return at
 
 
-@cache
 def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Function]:
-    """`expr` at a point as a function of one variable, in balls for quadrature.
+    """`expr` at a point as a function of one variable, in balls for quadrature."""
+    return program(expr.subs(e, M / P), variable).function
 
-    Parts without the variable are computed once per point; other terms are collected by the factors
-    that contain it.  Not for expressions with branches, because a branch that is not taken may have
-    no value.
-    """
-    fixed: dict[Expr, Symbol] = {}
-    moving = _collected(expr.subs(e, M / P), variable, fixed)
-    held = sorted(set().union(*(value.free_symbols for value in fixed)), key=str)
-    constants = functions_of(held, [*fixed])
-    function = function_of([variable, *fixed.values()], moving, shared=True)
-
-    def at(point: Point) -> Function:
-        given = [ball(point[symbol]) for symbol in held]
-        known: dict[int, Sequence[Ball]] = {}
-
-        def along(place: Ball) -> Ball:
-            if ctx.prec not in known:
-                known[ctx.prec] = constants(*given)
-            return function(place, *known[ctx.prec])
-
-        return along
-
-    return at
-
-
-def _collected(expr: Expr, variable: Symbol, fixed: dict[Expr, Symbol]) -> Expr:
-    """`expr` with a symbol for each part without the variable; `fixed` receives these symbols."""
-    if not expr.has(variable):
-        return expr if expr.is_Rational else fixed.setdefault(expr, Dummy("C"))
-    if expr == variable:
-        return expr
-    if expr.is_Mul:
-        apart, moving = expr.as_independent(variable, as_Add=False)
-        factors = [_collected(factor, variable, fixed) for factor in Mul.make_args(moving)]
-        return Mul(_collected(apart, variable, fixed), *factors)
-    if expr.is_Add:
-        terms: dict[Expr, list[Expr]] = {}
-        for term in expr.args:
-            apart, moving = term.as_independent(variable, as_Add=False)
-            terms.setdefault(moving, []).append(apart)
-        return Add(
-            *(
-                _collected(Add(*apart), variable, fixed)
-                * (_collected(moving, variable, fixed) if moving.has(variable) else moving)
-                for moving, apart in terms.items()
-            )
-        )
-    return expr.func(*(_collected(arg, variable, fixed) for arg in expr.args))
-
-
-def over_contact(over: Integral) -> Callable[[Point], mpf]:
-    """An integral over a part of the contact as a function of a point.
-
-    The variable of integration is the angle of the half circle, so that roots that vanish at the
-    edges do no harm.  Nodes are dense at the ends of the part; if a power is infinite there, they
-    are concentrated further by t**3/(t**3 + (1 - t)**3).  The integrand is evaluated with so many
-    digits that differences next to an end remain accurate.  Rounding cannot move a node out of the
-    part, where a power may have no real value.
-    """
-    variable, low, high = over.limits[0]
-    held = sorted(over.free_symbols, key=str)
-    fixed = {
-        p: Dummy("C") for p in sorted(over.function.atoms(Pow), key=str) if _is_fixed(p, variable)
-    }
-    taken = [variable, *held, *fixed.values()]
-    integrand = function_of(taken, over.function.xreplace(fixed), shared=True)
-    constants = functions_of(held, [*fixed])
-    power = 3 if has_sharp_power(over.function, variable) else 1
-    ends = compiled(held, [low, high], modules="mpmath")
-    known: dict[tuple[mpf, ...], mpf] = {}
-
-    def at(point: Point) -> mpf:
-        given = tuple(point[symbol] for symbol in held)
-        if given not in known:
-            with mpmath.workdps(_INSIDE):
-                start, end = ends(*given)
-            known[given] = integrated(point[a], point[c], start, end, given)
-        return known[given]
-
-    def integrated(left: mpf, right: mpf, start: mpf, end: mpf, given: tuple[mpf, ...]) -> mpf:
-        if end <= start:
-            return mpf(0)
-        width, node = _nodes(left, right, start, end, power)
-        balls = [ball(value) for value in given]
-        with digits(_INSIDE):
-            numbers = (*balls, *constants(*balls))
-
-        def along(t: Ball) -> Ball:
-            place, weight = node(t)
-            return integrand(place, *numbers) * weight
-
-        with mpmath.workdps(_OUTSIDE):
-            return power * width * integral(along, [mpf(0), mpf(1)], inside=_INSIDE)
-
-    return at
-
-
-def _compiled(symbols: list[Symbol], expr: Expr, shared: bool) -> Callable[..., mpf]:
-    """`expr` in mpmath; with `shared`, repeated subexpressions are computed once.
-
-    This is not done for expressions with branches, because a branch that is not taken may be
-    undefined.
-    """
-    once = shared and not expr.has(Piecewise)
-    return compiled(symbols, expr, modules="mpmath", shared=once)
-
-
-def _is_fixed(power: Pow, variable: Symbol) -> bool:
-    """Whether a power needs a logarithm and is constant over the contact."""
-    return not power.has(variable) and not power.exp.is_Rational
-
-
-@lru_cache(maxsize=128)
-def _nodes(
-    left: mpf, right: mpf, start: mpf, end: mpf, power: int
-) -> tuple[mpf, Callable[[Ball], tuple[Ball, Ball]]]:
-    """Width of a part in theta; point and weight for each t in [0, 1], shared by all integrals."""
-    with mpmath.workdps(_INSIDE):
-        angles = [mpmath.acos(max(-1, min(1, _cosine(p, left, right)))) for p in (end, start)]
-    low, high, first, last = map(ball, (*angles, start, end))
-    with digits(_INSIDE):
-        half, middle = (ball(left) + ball(right)) / 2, (ball(right) - ball(left)) / 2
-
-    @remembered
-    def node(t: Ball) -> tuple[Ball, Ball]:
-        near, far = t**power, (1 - t) ** power
-        theta = (low * far + high * near) / (near + far)
-        rate = (t * (1 - t)) ** (power - 1) / (near + far) ** 2
-        sine, cosine = theta.sin_cos()
-        place = first.max(last.min(middle + half * cosine))
-        return place, half * sine * rate
-
-    with mpmath.workdps(_OUTSIDE):
-        return angles[1] - angles[0], node
-
-
-def _cosine(place: mpf, left: mpf, right: mpf) -> mpf:
-    """Cosine of the angle of a point in the contact."""
-    return (2 * place + left - right) / (left + right)
-
-
-_LONG = 200
-"""Number of operations of a formula above which it pays to look for repeated subexpressions."""
 
 _LEANING = 40
 """Number of failed attempts after which a tilt is drawn between its limits, as some bodies need."""
-
-_INSIDE, _OUTSIDE = 160, 40
-"""Digits of an integrand, and digits of the integral."""
 
 
 def holds(conditions: Iterable[Boolean], point: Point) -> bool:

@@ -1,46 +1,56 @@
-"""Quadrature with a check of convergence: intervals are halved until the estimated error is small.
+"""One rule of quadrature, and one check of it.
 
-In:  an integrand of balls, and the points at which to split the interval.
-Out: the integral to nearly all working digits of mpmath.
+In:  an integrand of balls, and the points at which to cut the interval.
+Out: a ball with the integral, to the working digits of mpmath.
 
-Levels, error estimates and the stopping rule are those of mpmath; nodes and sums are balls.
+On a part, s = low + (high - low) sin(u)**2: integrands that contain roots of the distances from the
+ends are smooth in u.  The number of Gauss's nodes in u is doubled until two sums agree.  If they
+approach each other too slowly, nodes that are clustered at the ends are taken instead (tanh-sinh).
+
+The check: the integral is computed a second time with every part cut in two at a place that means
+nothing, so that no node is shared.  Ten times the difference is the radius of the result.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from typing import TypeVar
 
 import mpmath
 from flint import arb, ctx
 from mpmath import mpf
-from mpmath.calculus.quadrature import GaussLegendre, QuadratureRule
 
-from derive.proof.balls import Ball, ball, bits, digits, number
+from derive.proof.balls import Ball, Function, ball, digits, widened
 
-Function = Callable[[Ball], Ball]
-Value = TypeVar("Value")
-Nodes = Sequence[tuple[Ball, Ball]]
-"""Points in (-1, 1), and their weights."""
+_INSIDE = 3
+"""Digits of an integrand for each digit of the integral: nodes come so close to the ends that
+distances from these need twice as many, and differences of neighbours lose more."""
+_SPARE = 20
+"""Further digits of an integrand."""
+_CONVERGED = 0.6
+"""A next sum would double the number of certain digits: two that share this fraction suffice."""
+_SLOW = 1.4
+"""Gauss's sums converge if the relative gap decreases at least to this power of the one before."""
+_GAUSS = tuple(3 * 2**n for n in (2, 3, 4, 5, 6))
+"""Numbers of Gauss's nodes."""
+_HALVINGS = 9
+"""Number of times that the distance between clustered nodes is halved."""
+_NOWHERE = mpf(4427) / 10000
+"""Where the second computation cuts a part."""
+_FINER = 5
+"""Largest number of times that a part is cut because neither kind of nodes converges."""
+_AT_AN_END = arb(2) ** -50
+"""Largest share of the weights that nodes without a value may have: they are so close to an end
+that the integrand divides by zero in the working digits."""
 
-SMOOTH, CROWDED = "gauss-legendre", "tanh-sinh"
-"""Rules by their names in mpmath: for integrands that are smooth up to the ends, and for others."""
-
-_SPARE = 8
-"""Number of digits of the working precision that the integral may lack."""
-
-_CUTS = 6
-"""Largest number of times that every interval is halved."""
-
-_BESIDES = 12
-"""Additional digits of the integrand; mpmath's sums use six more than the working precision."""
+Nodes = Sequence[tuple[Ball, bool, Ball]]
+"""For each node its distance from an end, whether that is the upper end, and its weight."""
 
 
-def remembered(function: Callable[[Ball], Value]) -> Callable[[Ball], Value]:
+def remembered(function: Function) -> Function:
     """Remember values of `function` at every node and precision, since integrals share nodes."""
-    known: dict[tuple[int, int], tuple[Ball, Value]] = {}
+    known: dict[tuple[int, int], tuple[Ball, Ball]] = {}
 
-    def at(place: Ball) -> Value:
+    def at(place: Ball) -> Ball:
         asked = (id(place), ctx.prec)
         if asked not in known:
             known[asked] = place, function(place)  # kept, so that its id stays unique
@@ -49,141 +59,113 @@ def remembered(function: Callable[[Ball], Value]) -> Callable[[Ball], Value]:
     return at
 
 
-def integral(
-    integrand: Function, cuts: Sequence[mpf], method: str = CROWDED, inside: int = 0
-) -> mpf:
-    """int integrand over [cuts[0], cuts[-1]]; NaN if the integrand has no value on a part of it.
-
-    A node so close to an end that the integrand divides by zero is left out.
-
-    inside: initial number of digits of the integrand; doubled if its balls become too wide.
-    """
-    allowed = mpf(10) ** (_SPARE - mpmath.mp.dps)
-    count = max(inside, mpmath.mp.dps + _BESIDES)
-    for working in (count, 2 * count, 4 * count):
-        rule = _InBalls(method)
-        with digits(working):
-            value, size = _converged(integrand, cuts, rule, allowed)
-        if rule.width <= allowed * max(abs(value), size):
-            break
-    return value
+def integral(integrand: Function, cuts: Sequence[mpf]) -> Ball:
+    """int integrand over [cuts[0], cuts[-1]]; NaN if the integrand has no value on a part of it."""
+    inside = _INSIDE * mpmath.mp.dps + _SPARE
+    finer = []
+    for low, high in pairwise(cuts):
+        with mpmath.workdps(inside):
+            finer += [low, low + _NOWHERE * (high - low)]
+    with digits(inside):
+        first, second = (
+            sum((_part(integrand, *ends) for ends in pairwise(each)), arb(0))
+            for each in (cuts, [*finer, cuts[-1]])
+        )
+        return widened(first, 10 * abs(first - second).upper())
 
 
-def _converged(
-    integrand: Function, cuts: Sequence[mpf], rule: "_InBalls", allowed: mpf
-) -> tuple[mpf, mpf]:
-    """The integral, and the approximate size of the integral of the modulus."""
-    for _ in range(_CUTS):
-        value, error = mpmath.quad(integrand, cuts, method=lambda _: rule, error=True)
-        size = max(_size(integrand, low, high) for low, high in pairwise(cuts))
-        if error <= allowed * max(abs(value), size):
-            break
-        cuts = [*(end for p, q in pairwise(cuts) for end in (p, (p + q) / 2)), cuts[-1]]
-    return value, size
+def _part(integrand: Function, low: mpf, high: mpf, finer: int = _FINER) -> Ball:
+    """One part; cut in halves if it does not converge."""
+    enough = arb(10) ** int(-_CONVERGED * mpmath.mp.dps)
+    for sums, slow in ((_gauss, _SLOW), (_clustered, 0.0)):
+        gaps: list[arb] = []
+        previous: Ball | None = None
+        for total, size in sums(integrand, low, high):
+            if not total.is_finite():
+                return total
+            if previous is not None:
+                gaps.append(abs(total - previous).mid())
+                if gaps[-1] <= size * enough + 4 * total.rad():
+                    return total
+                if gaps[1:] and slow and gaps[-1] / size > (gaps[-2] / size) ** slow:
+                    break
+            previous = total
+    if not finer:
+        return widened(total, gaps[-1])
+    middle = (low + high) / 2
+    return sum((_part(integrand, *e, finer - 1) for e in ((low, middle), (middle, high))), arb(0))
 
 
-def _size(integrand: Function, low: mpf, high: mpf) -> mpf:
-    """Approximate size of an integral between two points."""
-    middle = number(integrand((ball(low) + ball(high)) / 2))
-    return mpf(0) if mpmath.isnan(middle) else abs(middle * (high - low))
+def _gauss(integrand: Function, low: mpf, high: mpf) -> Iterator[tuple[Ball, arb]]:
+    """Sums with more and more of Gauss's nodes, and the same of the modulus."""
+    for count in _GAUSS:
+        yield _summed(integrand, _placed(low, high, _of_gauss, count, 0, ctx.prec))
 
 
-_AT_AN_END = arb(2) ** -50
-"""Largest share of the total weight that nodes without a value may have.  Such nodes are so close
-to an end that the integrand divides by zero at the given precision."""
+def _clustered(integrand: Function, low: mpf, high: mpf) -> Iterator[tuple[Ball, arb]]:
+    """Sums with clustered nodes; the nodes of a level lie between those of the levels before."""
+    total: Ball = arb(0)
+    size = arb(0)
+    for level in range(_HALVINGS):
+        placed = _placed(low, high, _of_level, level, mpmath.mp.dps, ctx.prec)
+        more, moduli = _summed(integrand, placed)
+        total, size = total / 2 + more, size / 2 + moduli
+        if level > 1:
+            yield total, size
 
 
-class _InBalls(QuadratureRule):
-    """Gauss-Legendre or tanh-sinh quadrature with nodes and sums that are balls.
-
-    width: the largest error radius of a sum.
-    """
-
-    def __init__(self, method: str) -> None:
-        super().__init__(mpmath.mp)
-        self.method, self.width = method, mpf(0)
-
-    def get_nodes(
-        self, low: mpf, high: mpf, degree: int, prec: int, verbose: bool = False
-    ) -> Nodes:
-        """Nodes of this level between two points."""
-        return _between(self.method, low, high, degree, prec, ctx.prec)
-
-    def sum_next(
-        self,
-        integrand: Function,
-        nodes: Nodes,
-        degree: int,
-        prec: int,
-        previous: Sequence[mpf],
-        verbose: bool = False,
-    ) -> mpf:
-        """The sum of this level; `previous` are the sums of the earlier levels.
-
-        New nodes of the tanh-sinh rule lie between the previous ones; half the previous sum is
-        added.
-        """
-        terms = [(weight, weight * integrand(place)) for place, weight in nodes]
-        total = sum((term for _, term in terms if term.is_finite()), arb(0))
-        lost = sum((weight for weight, term in terms if not term.is_finite()), arb(0))
-        if lost > _AT_AN_END * sum(weight for weight, _ in terms):
-            total = arb("nan")
-        self.width = max(self.width, number(total.rad()))
-        if self.method != CROWDED:
-            return number(total)
-        fresh = number(total) * mpf(2) ** -degree
-        return fresh + previous[-1] / 2 if previous else fresh
+def _summed(integrand: Function, placed: Sequence[tuple[Ball, Ball]]) -> tuple[Ball, arb]:
+    total: Ball = arb(0)
+    lost: Ball = arb(0)
+    whole: Ball = arb(0)
+    size = arb(0)
+    for place, weight in placed:
+        term = weight * integrand(place)
+        whole += weight
+        if term.is_finite():
+            total += term
+            size += abs(term).mid()
+        else:
+            lost += weight
+    return total if lost <= _AT_AN_END * whole else arb("nan"), size
 
 
-@lru_cache(maxsize=256)
-def _between(method: str, low: mpf, high: mpf, degree: int, prec: int, bits: int) -> Nodes:
+@lru_cache(maxsize=512)
+def _placed(
+    low: mpf, high: mpf, nodes: Callable[[int, int, int], Nodes], *which: int
+) -> Sequence[tuple[Ball, Ball]]:
     """Nodes between two points: always the same balls, so that values are remembered for them."""
-    half, middle = (ball(high) - ball(low)) / 2, (ball(low) + ball(high)) / 2
-    standard = _standard(method, degree, prec, bits)
-    return [(middle + half * place, half * weight) for place, weight in standard]
+    start, end = ball(low), ball(high)
+    length = end - start
+    return [
+        (end - length * distance if from_above else start + length * distance, length * weight)
+        for distance, from_above, weight in nodes(*which)
+    ]
 
 
 @lru_cache(maxsize=256)
-def _standard(method: str, degree: int, prec: int, bits: int) -> Nodes:
-    """Nodes in (-1, 1), to a given number of bits."""
-    return _crowded(degree, prec) if method == CROWDED else _of_legendre(degree)
+def _of_gauss(count: int, _: int, bits: int) -> Nodes:
+    """Nodes on [0, 1] with the roots of a Legendre polynomial in u, to so many bits."""
+    pairs = [arb.legendre_p_root(count, k, weight=True) for k in range(count)]
+    return [_node(1 - abs(place), place > 0, weight) for place, weight in pairs]
 
 
-def _of_legendre(degree: int) -> Nodes:
-    """Roots of the Legendre polynomial of degree 3 2**(degree - 1)."""
-    count = 3 * 2 ** (degree - 1)
-    return [arb.legendre_p_root(count, k, weight=True) for k in range(count)]
-
-
-def _crowded(degree: int, prec: int) -> Nodes:
-    """tanh((pi/2) sinh t) at the t that this level adds, until it equals 1 to the last digit."""
-    quarter = arb.pi() / 2
-    t, every = arb(2) ** -degree, arb(2) ** (-1 if degree == 1 else 1 - degree)
-    nodes = [(arb(0), quarter)] if degree == 1 else []
+@lru_cache(maxsize=256)
+def _of_level(level: int, working: int, bits: int) -> Nodes:
+    """Those with tanh((pi/2) sinh t) in u at the t that a level adds, down to 10**-working."""
+    quarter, step = arb.pi() / 2, arb(2) ** -level
+    t = step if level else arb(0)
+    found: list[tuple[Ball, bool, Ball]] = []
     while True:
-        steep = quarter * t.sinh()
-        short = 2 / (1 + (2 * steep).exp())
-        if short < arb(2) ** (-prec - 10):
-            return nodes
-        weight = quarter * t.cosh() / steep.cosh() ** 2
-        nodes += [(1 - short, weight), (short - 1, weight)]
-        t = t + every
+        short = 2 / (1 + (2 * quarter * t.sinh()).exp())
+        if short < arb(10) ** (-working - 3):
+            return found
+        weight = step * quarter * t.cosh() / (quarter * t.sinh()).cosh() ** 2
+        found += [_node(short, above, weight) for above in ((True, False) if t != 0 else (True,))]
+        t += 2 * step if level else step
 
 
-class _QuickNodes(GaussLegendre):
-    """mpmath's own Gauss-Legendre rule, with nodes that are found in a hundredth of the time."""
-
-    def calc_nodes(self, degree: int, prec: int, verbose: bool = False) -> list[tuple[mpf, mpf]]:
-        """Nodes and weights, as mpmath's numbers."""
-        with bits(prec + _GUARD_BITS):
-            return [(number(place), number(weight)) for place, weight in _of_legendre(degree)]
-
-
-_GUARD_BITS = 20
-
-_QUICK = _QuickNodes(mpmath.mp)
-
-
-def gauss_legendre(_: object) -> QuadratureRule:
-    """A `method` for mpmath.quad."""
-    return _QUICK
+def _node(short: Ball, from_above: bool, weight: Ball) -> tuple[Ball, bool, Ball]:
+    """A node at the distance `short` from an end of [-1, 1], under s = sin(u)**2."""
+    angle = arb.pi() / 4 * short
+    return angle.sin() ** 2, from_above, weight * arb.pi() / 4 * (2 * angle).sin()

@@ -13,12 +13,16 @@ from enum import StrEnum
 import mpmath
 from mpmath import mpf
 
+from derive.proof.balls import Value
+
 DIGITS = 30
 """Number of digits to which both routes must agree."""
 POINTS = 24
 """Number of random points at which they are compared."""
 WORKING = 50
 """Working digits of the comparison."""
+EXACT = 10**6
+"""The number of digits that two equal numbers share."""
 
 
 class Verdict(StrEnum):
@@ -67,11 +71,15 @@ class Comparison:
     @property
     def digits(self) -> int:
         """Number of digits to which the two values agree."""
-        scale = max(abs(self.formula), abs(self.route))
-        gap = abs(self.formula - self.route)
         if not (mpmath.isfinite(self.formula) and mpmath.isfinite(self.route)):
             return 0
-        return WORKING if gap == 0 else max(0, int(-mpmath.log10(gap / scale)))
+        return min(WORKING, shared_digits(self.formula, self.route))
+
+
+def shared_digits(first: Value, second: Value) -> int:
+    """The number of digits that two numbers share; equal numbers share EXACT."""
+    gap = abs(first - second)
+    return EXACT if gap == 0 else max(0, int(-mpmath.log10(gap / max(abs(first), abs(second)))))
 
 
 def numerical_proof(route: str, comparisons: Iterable[Comparison]) -> Proof:

@@ -18,7 +18,7 @@ MANY = 20
 """The largest number of arguments of a function."""
 
 Switches = list[tuple[str, Expr]]
-"""Expressions at whose zeros a function is not smooth, each with its kind in derive.check.kinks."""
+"""Expressions at whose zeros a function is not smooth, each with its kind in derive.proof.kinks."""
 
 
 def _smooth(*_: Expr) -> Switches:

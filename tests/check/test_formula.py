@@ -3,7 +3,7 @@
 import pytest
 from sympy import Expr, Integral, Rational, Symbol, exp, log, pi, solve, sqrt
 
-from derive.check.kinks import switches
+from derive.proof.kinks import switches
 from derive.reading.formula import Names, formula
 from derive.reading.improper import proper
 from derive.reading.words import FUNCTIONS

@@ -6,9 +6,8 @@ from mpmath import mpf
 from sympy import Abs, Expr, Max, Min, Rational, S
 
 from derive import Geometry, x
-from derive.proof.balls import Ball, ball, digits, number
+from derive.proof.balls import Function, ball, digits, number
 from derive.proof.quadrature import Contact
-from derive.proof.rule import Function
 from derive.proof.verdict import DIGITS, WORKING
 from tests.derive import integrals
 from tests.derive.bodies import BODIES, CASES, VALUES, b, close, geometry
@@ -65,17 +64,14 @@ def test_powers_of_a_ramp(ramp: Expr, power: Expr) -> None:
     assert close(here.tilt, -n * mpmath.beta(n / 2, one / 2) / (2 * mpmath.pi))
 
 
-def test_resultants_by_hand() -> None:
+def test_integrals_over_a_contact_by_hand() -> None:
     """int w ds = pi h^2/8, int w s ds = mid times it; a logarithm at a kink is integrable."""
     here = contact("wedge", 2.0, 1.0)
 
-    def root(s: Ball) -> Ball:
-        return ((2 + s) * (1 - s)).sqrt()
-
-    assert close(here.resultant(root), mpmath.pi * 9 / 8)
-    assert close(here.resultant(root, lambda s: s), -mpmath.pi * 9 / 16)
+    assert close(here.integral(here.root), mpmath.pi * 9 / 8)
+    assert close(here.integral(lambda s: s * here.root(s)), -mpmath.pi * 9 / 16)
     # int_{-2}^{1} log|s| ds = (1 log 1 - 1) + (2 log 2 - 2)
-    found = here.resultant(lambda s: abs(s).log())
+    found = here.integral(lambda s: abs(s).log())
     assert close(found, 2 * mpmath.log(2) - 3, digits=18)
 
 

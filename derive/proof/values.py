@@ -1,0 +1,379 @@
+"""Expressions in numbers whose digits are certain, with integrals by quadrature.
+
+In:  an expression, and numbers for its symbols.
+Out: a ball with its value, or a number all of whose working digits are known.
+
+An expression becomes a list of steps on balls.  If rounding or cancellation leaves too few digits
+of the value, the steps are repeated with more of them.
+"""
+
+from collections.abc import Callable, Mapping
+from functools import cache, lru_cache
+from itertools import pairwise
+from typing import Any
+
+import mpmath
+from flint import acb, arb, ctx
+from mpmath import mpc, mpf
+from sympy import Basic, Expr, Float, I, Integral, Pow, Rational, S, Symbol, nan, oo, pi, zoo
+from sympy.core.function import AppliedUndef
+from sympy.core.numbers import Exp1
+from sympy.logic.boolalg import Boolean, BooleanAtom
+
+from derive.body.compiled import compiled
+from derive.proof.balls import (
+    FUNCTIONS,
+    Ball,
+    Function,
+    Value,
+    ball,
+    digits,
+    known_digits,
+    number,
+    power,
+    root,
+)
+from derive.proof.kinks import Place, is_unbounded, places
+from derive.proof.rule import integral
+
+Numbers = Mapping[Symbol, Any]
+"""Numbers of mpmath, or balls, for symbols."""
+Operation = Callable[..., Any]
+Step = tuple[int, Operation, tuple[int, ...]]
+"""The number of a value, how it is computed, and the numbers of the values it is computed from."""
+
+_GUARD = 12
+"""Additional digits of a first attempt."""
+_ATTEMPTS = (1, 2, 4)
+"""Multiples of the working digits that are tried until enough digits are certain."""
+_FARTHEST = 2**20
+"""The largest magnitude of the binary exponent of a value."""
+_LOOKED_AT = 257
+"""Number of points at which the sign of a switch is sampled if its zeros are not known."""
+_NEAR = (mpf(10) ** -9, mpf(10) ** -13)
+"""Distances from a cut, relative to the part, at which the growth towards it is measured."""
+_STEEPEST = 0.97
+"""An integral is taken to diverge if the integrand grows by a higher power of 1/distance."""
+_SMOOTH = {"kink", "peak"}
+"""Kinds of cuts beside which an integrand is bounded."""
+
+
+class Undecided(ArithmeticError):
+    """No reliable value was obtained, for example because too many digits were lost."""
+
+
+class Undefined(Undecided):
+    """There is no value at this point, for example after a division by zero."""
+
+
+def evaluated(expr: Expr, numbers: Numbers) -> Value:
+    """The value to the working precision of mpmath; raises Undecided."""
+    working = mpmath.mp.dps
+    for times in _ATTEMPTS[:2] if expr.has(Integral) else _ATTEMPTS:
+        with mpmath.workdps(times * working + _GUARD), digits(times * working + _GUARD):
+            found = enclosed(expr, numbers)
+        if known_digits(found) >= working:
+            return +number(found)
+    if not found.contains(0):
+        raise Undecided(f"cancellation leaves fewer than {working} digits")
+    return mpf(0)
+
+
+def enclosed(expr: Expr, numbers: Numbers) -> Ball:
+    """A ball with the value, by the digits of balls that are set; raises Undecided."""
+    found: Ball = program(expr)(numbers)
+    if not found.is_finite():
+        raise Undefined("there is no value")
+    if abs(found).mid() != 0 and abs(int(abs(found).mid().man_exp()[1])) > _FARTHEST:
+        raise Undecided("a number is too large or too small for the computation")
+    return found
+
+
+# ------------------------------------------------------------------ programs
+
+
+class Program:
+    """An expression as steps on balls; repeated subexpressions are computed once.
+
+    If `along` is given, steps that do not depend on this symbol are done once for all its values.
+    """
+
+    def __init__(self, expr: Basic, along: Symbol | None = None) -> None:
+        self._along = along
+        self._number: dict[Basic, int] = {}
+        self._symbols: list[tuple[int, Symbol]] = []
+        self._fixed: list[Step] = []
+        self._moving: list[Step] = []
+        self._moves: list[bool] = []
+        self._add(expr)
+
+    def _add(self, node: Basic) -> int:
+        """Add the steps for a part of the expression; return the number of its value."""
+        if node in self._number:
+            return self._number[node]
+        operation, args = (None, ()) if isinstance(node, Symbol) else self._operation(node)
+        taken = tuple(map(self._add, args))
+        place = self._number[node] = len(self._moves)
+        self._moves.append(node == self._along or any(self._moves[arg] for arg in taken))
+        if operation is not None:
+            (self._moving if self._moves[-1] else self._fixed).append((place, operation, taken))
+        elif not self._moves[-1]:
+            self._symbols.append((place, node))
+        return place
+
+    def _operation(self, node: Basic) -> tuple[Operation, tuple[Basic, ...]]:
+        if node in _CONSTANTS:
+            return _CONSTANTS[node], ()
+        if isinstance(node, BooleanAtom):
+            return (lambda: bool(node)), ()
+        if isinstance(node, Rational):
+            return (lambda: arb(node.p) / node.q), ()
+        if isinstance(node, Float):
+            return (lambda: ball(mpf(node._mpf_))), ()
+        if isinstance(node, Integral):
+            held = tuple(sorted(node.free_symbols, key=str))
+            return (lambda *values: _integrated(node, dict(zip(held, values, strict=True)))), held
+        if isinstance(node, Pow):
+            exponent = int(node.exp) if node.exp.is_Integer else 0
+            if exponent:
+                return (lambda base: power(base, exponent)), (node.base,)
+            if abs(node.exp) == S.Half:
+                return (root if node.exp.is_positive else _over_root), (node.base,)
+            return power, node.args
+        if node.func in FUNCTIONS:
+            return FUNCTIONS[node.func], self._grouped(node)
+        return _by_mpmath(node), tuple(sorted(node.free_symbols, key=str))
+
+    def _grouped(self, node: Expr) -> tuple[Basic, ...]:
+        """Arguments, with terms or factors that do not vary along the symbol taken together."""
+        if node.func.__name__ == "Piecewise":
+            return tuple(part for pair in node.args for part in pair.args)
+        if self._along is None or not (node.is_Add or node.is_Mul) or len(node.args) < 3:
+            return tuple(node.args)
+        fixed = [arg for arg in node.args if not arg.has(self._along)]
+        if not 1 < len(fixed) < len(node.args):
+            return tuple(node.args)
+        return node.func(*fixed), *(arg for arg in node.args if arg not in fixed)
+
+    def __call__(self, numbers: Numbers) -> Any:
+        """The value for the numbers of all symbols."""
+        return self.parts(numbers)[-1]
+
+    def parts(self, numbers: Numbers) -> list[Any]:
+        """The values of all parts that are fixed, and None for others."""
+        values: list[Any] = [None] * len(self._moves)
+        for place, symbol in self._symbols:
+            values[place] = ball(numbers[symbol])
+        return _filled(values, self._fixed)
+
+    def function(self, numbers: Numbers) -> Function:
+        """The value as a function of the symbol `along`; others have the given numbers."""
+        known: dict[int, list[Any]] = {}
+        at = self._number.get(self._along)
+
+        def value(place: Ball) -> Ball:
+            if ctx.prec not in known:
+                known[ctx.prec] = self.parts(numbers)
+            values = known[ctx.prec].copy()
+            if at is not None:
+                values[at] = place
+            found: Ball = _filled(values, self._moving)[-1]
+            return found
+
+        return value
+
+
+def _filled(values: list[Any], steps: list[Step]) -> list[Any]:
+    for place, operation, args in steps:
+        values[place] = operation(*[values[arg] for arg in args])
+    return values
+
+
+def _over_root(value: Ball) -> Ball:
+    return 1 / root(value)
+
+
+_CONSTANTS: dict[Basic, Operation] = {
+    pi: arb.pi,
+    Exp1(): arb.const_e,
+    I: lambda: acb(0, 1),
+    oo: lambda: arb("inf"),
+    -oo: lambda: arb("-inf"),
+    nan: lambda: arb("nan"),
+    zoo: lambda: arb("nan"),
+}
+
+
+@lru_cache(maxsize=5000)
+def program(expr: Expr, along: Symbol | None = None) -> Program:
+    """The steps of an expression."""
+    return Program(expr, along)
+
+
+def _by_mpmath(node: Basic) -> Operation:
+    """A function that python-flint does not have, by mpmath; its last digits are not trusted."""
+    if isinstance(node, AppliedUndef | Boolean):
+        raise Undecided(f"{node} cannot be computed numerically")
+    symbols = sorted(node.free_symbols, key=str)
+    function = compiled(symbols, node, modules="mpmath")
+
+    def operation(*values: Ball) -> Ball:
+        with mpmath.workprec(ctx.prec + 20):
+            found = ball(mpmath.mpmathify(function(*map(number, values))))
+        return found + found * arb(0, arb(2) ** -ctx.prec)
+
+    return operation
+
+
+# ------------------------------------------------------------------ integrals
+
+
+@cache
+def _separated(over: Integral) -> tuple[Expr, Expr, tuple[Symbol, Expr, Expr]]:
+    """A constant factor, the integrand without it, and its limits.
+
+    SymPy writes nested integrals as one integral with several limits.
+    """
+    *inner, outer = over.limits
+    inside = Integral(over.function, *inner) if inner else over.function
+    return *inside.as_independent(outer[0], as_Add=False), outer
+
+
+_KNOWN: dict[tuple[Any, ...], Ball | Undecided] = {}
+
+
+def _integrated(over: Integral, numbers: Numbers) -> Ball:
+    """The integral to the working digits of mpmath; remembered."""
+    factor, inside, limits = _separated(over)
+    held = sorted(Integral(inside, limits).free_symbols, key=str)
+    key = (
+        *(inside, *limits, mpmath.mp.dps),
+        *(number(part) for symbol in held for part in (numbers[symbol], numbers[symbol].rad())),
+    )
+    if key not in _KNOWN:
+        try:
+            _KNOWN[key] = _computed(inside, *limits, numbers)
+        except Undecided as error:
+            _KNOWN[key] = error
+    known = _KNOWN[key]
+    if isinstance(known, Undecided):
+        raise type(known)(str(known))
+    return program(factor)(numbers) * known
+
+
+def _computed(inside: Expr, variable: Symbol, low: Expr, high: Expr, numbers: Numbers) -> Ball:
+    working = mpmath.mp.dps
+    with mpmath.workdps(3 * working), digits(4 * working):  # so that roots vanish at the ends
+        start, end = (+number(program(each)(numbers)) for each in (low, high))
+        if isinstance(start, mpc) or isinstance(end, mpc):
+            raise Undecided("an end of an integral is not a real number")
+        if start == end:
+            return arb(0)
+        sense, (start, end) = (1, (start, end)) if start < end else (-1, (end, start))
+        cuts = _cuts(start, end, _zeros(inside, variable, numbers, start, end))
+    integrand = program(inside, variable).function(numbers)
+    if is_unbounded(inside, variable):
+        _demand_no_pole(integrand, cuts, variable)
+    total = integral(integrand, list(cuts))
+    if not total.is_finite():
+        raise Undecided("the numerical integration does not converge")
+    return sense * total
+
+
+def _cuts(start: mpf, end: mpf, known: list[tuple[mpf, str]]) -> dict[mpf, set[str]]:
+    """Both ends and all points between them, each with the kinds of what happens there.
+
+    Points that agree to two thirds of the working digits are one.
+    """
+    close = (end - start) * mpf(10) ** (-2 * mpmath.mp.dps // 3)
+    cuts: dict[mpf, set[str]] = {start: set(), end: set()}
+    for position, kind in known:
+        if start - close <= position <= end + close:
+            at = next((cut for cut in cuts if abs(cut - position) <= close), position)
+            cuts.setdefault(at, set()).add(kind)
+    return dict(sorted(cuts.items()))
+
+
+def _demand_no_pole(along: Function, cuts: Mapping[mpf, set[str]], variable: Symbol) -> None:
+    """Raise Undecided if the integrand grows like 1/distance, or faster, towards a cut."""
+    for one, other in pairwise(cuts):
+        for cut, length in ((one, other - one), (other, one - other)):
+            if cuts[cut] and cuts[cut] <= _SMOOTH:
+                continue
+            with mpmath.workdps(40), digits(80):
+                far, near = (abs(number(along(ball(cut + part * length)))) for part in _NEAR)
+                if far == 0 or near == 0:
+                    continue
+                grown = mpmath.log10(near / far) / mpmath.log10(_NEAR[0] / _NEAR[1])
+            if not mpmath.isfinite(grown) or grown > _STEEPEST:
+                raise Undecided(
+                    f"the integral diverges: its integrand has a pole at {variable} = "
+                    f"{mpmath.nstr(cut, 6)} "
+                    "(write pv, or \\fint in LaTeX, if a principal value is meant)"
+                )
+
+
+# ------------------------------------------------------------------ points where to cut
+
+
+def _zeros(
+    inside: Expr, variable: Symbol, numbers: Numbers, start: mpf, end: mpf
+) -> list[tuple[mpf, str]]:
+    """Points between the ends where the integrand may not be smooth."""
+    zeros = []
+    for place in places(inside, variable):
+        if place.coefficients:
+            for coefficients in place.coefficients:
+                values = [number(program(each)(numbers)) for each in coefficients]
+                zeros += [(zero, place.kind) for zero in _roots(values)]
+        else:
+            zeros += [(z, place.kind) for z in _looked_for(place, variable, numbers, start, end)]
+    return zeros
+
+
+def _roots(coefficients: list[Value]) -> list[mpf]:
+    """The real roots of a polynomial, including both roots of a nearly real pair."""
+    while coefficients and coefficients[0] == 0:
+        coefficients = coefficients[1:]
+    if any(isinstance(value, mpc) for value in coefficients) or len(coefficients) < 2:
+        return []
+    if len(coefficients) == 2:
+        return [-coefficients[1] / coefficients[0]]
+    if len(coefficients) == 3:
+        return _of_square(*coefficients)
+    try:
+        roots = mpmath.polyroots(coefficients, maxsteps=200, extraprec=2 * mpmath.mp.prec)
+    except mpmath.libmp.NoConvergence:
+        raise Undecided("the points where an integrand is not smooth are not known") from None
+    near = mpf(10) ** (-mpmath.mp.dps // 4) * max(map(abs, roots))
+    return [mpmath.re(each) for each in roots if abs(mpmath.im(each)) <= near]
+
+
+def _of_square(first: mpf, second: mpf, third: mpf) -> list[mpf]:
+    under = second**2 - 4 * first * third
+    if under < -(second**2) * mpf(10) ** (-mpmath.mp.dps // 2):
+        return []
+    larger = -(second + mpmath.sign(second or 1) * mpmath.sqrt(max(under, mpf(0)))) / 2
+    return [larger / first, third / larger] if larger != 0 else [mpf(0)]
+
+
+def _looked_for(
+    place: Place, variable: Symbol, numbers: Numbers, start: mpf, end: mpf
+) -> list[mpf]:
+    """Points where a switch changes its sign, between neighbouring points of a grid."""
+    along = program(place.of, variable).function(numbers)
+    grid = [start + (end - start) * n / (_LOOKED_AT - 1) for n in range(_LOOKED_AT)]
+    with digits(15):
+        signs = [mpmath.sign(mpmath.re(number(along(ball(at))))) for at in grid]
+    zeros = [at for at, sign in zip(grid, signs, strict=True) if sign == 0]
+    for (low, one), (high, other) in pairwise(zip(grid, signs, strict=True)):
+        if one * other < 0:
+            zeros.append(
+                mpmath.findroot(
+                    lambda at: number(along(ball(at))),
+                    (low, high),
+                    solver="anderson",
+                    verify=False,
+                )
+            )
+    return zeros
