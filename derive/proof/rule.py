@@ -19,7 +19,7 @@ import mpmath
 from flint import arb, ctx
 from mpmath import mpf
 
-from derive.proof.balls import Ball, Function, ball, digits, widened
+from derive.proof.balls import Ball, Function, digits, widened
 
 _INSIDE = 3
 """Digits of an integrand for each digit of the integral: nodes come so close to the ends that
@@ -42,7 +42,7 @@ _AT_AN_END = arb(2) ** -50
 """Largest share of the weights that nodes without a value may have: they are so close to an end
 that the integrand divides by zero in the working digits."""
 
-Nodes = Sequence[tuple[Ball, bool, Ball]]
+Nodes = Sequence[tuple[arb, bool, arb]]
 """For each node its distance from an end, whether that is the upper end, and its weight."""
 
 
@@ -61,17 +61,24 @@ def remembered(function: Function) -> Function:
 
 def integral(integrand: Function, cuts: Sequence[mpf]) -> Ball:
     """int integrand over [cuts[0], cuts[-1]]; NaN if the integrand has no value on a part of it."""
-    inside = _INSIDE * mpmath.mp.dps + _SPARE
     finer = []
     for low, high in pairwise(cuts):
-        with mpmath.workdps(inside):
+        with mpmath.workdps(_inside()):
             finer += [low, low + _NOWHERE * (high - low)]
-    with digits(inside):
-        first, second = (
-            sum((_part(integrand, *ends) for ends in pairwise(each)), arb(0))
-            for each in (cuts, [*finer, cuts[-1]])
-        )
+    first, second = unchecked(integrand, cuts), unchecked(integrand, [*finer, cuts[-1]])
+    with digits(_inside()):
         return widened(first, 10 * abs(first - second).upper())
+
+
+def unchecked(integrand: Function, cuts: Sequence[mpf]) -> Ball:
+    """The same, computed once: for comparison with another route."""
+    with digits(_inside()):
+        return sum((_part(integrand, *ends) for ends in pairwise(cuts)), arb(0))
+
+
+def _inside() -> int:
+    """The digits of an integrand."""
+    return _INSIDE * mpmath.mp.dps + _SPARE
 
 
 def _part(integrand: Function, low: mpf, high: mpf, finer: int = _FINER) -> Ball:
@@ -114,11 +121,9 @@ def _clustered(integrand: Function, low: mpf, high: mpf) -> Iterator[tuple[Ball,
             yield total, size
 
 
-def _summed(integrand: Function, placed: Sequence[tuple[Ball, Ball]]) -> tuple[Ball, arb]:
+def _summed(integrand: Function, placed: Sequence[tuple[arb, arb]]) -> tuple[Ball, arb]:
     total: Ball = arb(0)
-    lost: Ball = arb(0)
-    whole: Ball = arb(0)
-    size = arb(0)
+    size, lost, whole = arb(0), arb(0), arb(0)
     for place, weight in placed:
         term = weight * integrand(place)
         whole += weight
@@ -133,9 +138,9 @@ def _summed(integrand: Function, placed: Sequence[tuple[Ball, Ball]]) -> tuple[B
 @lru_cache(maxsize=512)
 def _placed(
     low: mpf, high: mpf, nodes: Callable[[int, int, int], Nodes], *which: int
-) -> Sequence[tuple[Ball, Ball]]:
+) -> Sequence[tuple[arb, arb]]:
     """Nodes between two points: always the same balls, so that values are remembered for them."""
-    start, end = ball(low), ball(high)
+    start, end = arb(low), arb(high)
     length = end - start
     return [
         (end - length * distance if from_above else start + length * distance, length * weight)
@@ -155,7 +160,7 @@ def _of_level(level: int, working: int, bits: int) -> Nodes:
     """Those with tanh((pi/2) sinh t) in u at the t that a level adds, down to 10**-working."""
     quarter, step = arb.pi() / 2, arb(2) ** -level
     t = step if level else arb(0)
-    found: list[tuple[Ball, bool, Ball]] = []
+    found: list[tuple[arb, bool, arb]] = []
     while True:
         short = 2 / (1 + (2 * quarter * t.sinh()).exp())
         if short < arb(10) ** (-working - 3):
@@ -165,7 +170,7 @@ def _of_level(level: int, working: int, bits: int) -> Nodes:
         t += 2 * step if level else step
 
 
-def _node(short: Ball, from_above: bool, weight: Ball) -> tuple[Ball, bool, Ball]:
+def _node(short: arb, from_above: bool, weight: arb) -> tuple[arb, bool, arb]:
     """A node at the distance `short` from an end of [-1, 1], under s = sin(u)**2."""
     angle = arb.pi() / 4 * short
     return angle.sin() ** 2, from_above, weight * arb.pi() / 4 * (2 * angle).sin()
