@@ -5,14 +5,14 @@ Out: Proof with the verdict *numerical*, *refuted* or *unknown*; None if there i
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol, cancel
 
-from derive.proof.balls import Ball, Function, ball, digits, number, root
+from derive.proof.balls import Ball, Function, ball, root
 from derive.proof.points import Point, contacts, loads, named, numeric, numeric_along
 from derive.proof.quadrature import Contact
 from derive.proof.rule import remembered
@@ -25,15 +25,14 @@ _BOUNDED = "dq bounded at the ends of the stick zone, by quadrature of p"
 _STICK = ("stick_m", "stick_n")
 _FORWARD = {P: "load", M: "moment", alpha: "tilt"}
 
-_SPARE = 20
-"""Additional digits for a closed pressure, whose terms may cancel."""
-
 _s = Symbol("s")
 """A second point in the contact besides x."""
 
 Pairs = Iterator[tuple[mpf, mpf]]
 Route = Callable[[Point, Contact], Pairs]
 """Returns, for one contact, pairs of numbers that must agree."""
+Value = Callable[[Point, Contact], mpf]
+"""Returns, for one contact, the number that a formula must agree with."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +40,7 @@ class NumericalRoutes:
     """The numerical routes of one sheet, which share their random contacts."""
 
     sheet: FormulaSheet
+    _pressures: dict[str, Function] = field(default_factory=dict)
 
     def proof(self, name: str) -> Proof | None:
         """The proof of one formula by its numerical route."""
@@ -61,49 +61,34 @@ class NumericalRoutes:
 
     @cached_property
     def _routes(self) -> dict[str, tuple[str, Route]]:
-        if not self.sheet.geometry.slope.is_polynomial:
-            return self._routes_of_integrals
-        return {
-            "tilt": (_QUADRATURE, self._tilt),
-            "load": ("int p dx by quadrature", self._load),
-            "moment": ("-int p x dx by quadrature", self._moment),
-            "pressure": (_QUADRATURE, self._pressure),
-            "L_N_left": ("p - K_N sqrt(s) close to the edge", self._second_left),
-            "L_N_right": ("p - K_N sqrt(s) close to the edge", self._second_right),
-            "full_stick_change": ("force and strain by quadrature", self._full_stick),
-            **{name: (_BOUNDED, self._stuck_between(name)) for name in _STICK},
+        """Polynomials are integrated once more; superposed wedges meet the equation of g itself."""
+        is_polynomial = self.sheet.geometry.slope.is_polynomial
+        values = _OF_G | (self._of_pressure if is_polynomial else _OF_G_ALONE)
+        routes = {
+            asked: (words, self._against(asked, value))
+            for name, (words, value) in values.items()
+            for asked in (name, f"{name}_closed")
         }
-
-    @cached_property
-    def _routes_of_integrals(self) -> dict[str, tuple[str, Route]]:
-        """Superposed wedges compared with the singular integral equation of the original g'."""
-        routes: dict[str, tuple[str, Route]] = {
-            "pressure": (_QUADRATURE, self._pressure),
-            "full_stick_change": ("force and strain by quadrature", self._full_stick),
-        }
-        defining: list[tuple[str, str, Callable[[Contact], mpf]]] = [
-            ("tilt", _QUADRATURE, lambda contact: contact.tilt),
-            ("load", "(E*/2) I_1 of g(x) by quadrature", lambda contact: contact.load),
-            (
-                "moment",
-                "-(E*/2) (I_2 - mid I_1) of g(x) by quadrature",
-                lambda contact: contact.moment,
-            ),
-        ]
-        for side in ("left", "right"):
-            for order, name in enumerate((f"K_N_{side}", f"L_N_{side}")):
-                words = f"{_QUADRATURE}, next to the {side} edge"
-                defining.append((name, words, _of_series(side, order)))
-        for name, words, value in defining:
-            for asked in (name, f"{name}_closed"):
-                routes[asked] = words, self._against(asked, value)
+        routes["full_stick_change"] = "force and strain by quadrature", self._full_stick
+        if is_polynomial:
+            routes |= {name: (_BOUNDED, self._stuck_between(name)) for name in _STICK}
         return routes
 
-    def _against(self, name: str, value: Callable[[Contact], mpf]) -> Route:
-        """Compare a formula with the number that the defining integrals of a contact give."""
+    @cached_property
+    def _of_pressure(self) -> dict[str, tuple[str, Value]]:
+        """Numbers that follow from the formula of p."""
+        next_to = "p - K_N sqrt(s) close to the edge"
+        return {
+            "load": ("int p dx by quadrature", lambda at, on: on.integral(self._p(at))),
+            "moment": ("-int p x dx by quadrature", self._moment),
+            **{f"L_N_{side}": (next_to, self._second(side)) for side in ("left", "right")},
+        }
+
+    def _against(self, name: str, value: Value) -> Route:
+        """Compare a formula with another number for the same contact."""
 
         def route(point: Point, contact: Contact) -> Pairs:
-            yield self._at(name, point), value(contact)
+            yield self._at(name, point), value(point, contact)
 
         return route
 
@@ -119,46 +104,29 @@ class NumericalRoutes:
     def _at(self, name: str, point: Point) -> mpf:
         return numeric(self.sheet.flat(name))(point)
 
-    def _tilt(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("tilt", point), contact.tilt
-
-    def _load(self, point: Point, contact: Contact) -> Pairs:
+    def _moment(self, point: Point, contact: Contact) -> mpf:
         p = self._p(point)
-        yield self._at("load", point), contact.integral(p)
-
-    def _moment(self, point: Point, contact: Contact) -> Pairs:
-        p = self._p(point)
-        yield self._at("moment", point), contact.integral(lambda s: -s * p(s))
-
-    def _pressure(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("pressure", point), contact.pressure(point[x])
+        return contact.integral(lambda s: -s * p(s))
 
     def _p(self, point: Point) -> Function:
         """p(x) at one contact, remembered, since load and moment need it at the same points."""
-        if named(point) not in self._pressures:
+        key = named(point)
+        if key not in self._pressures:
             p = numeric_along(self.sheet.flat("pressure"), x)(point)
-            self._pressures[named(point)] = remembered(p)
-        return self._pressures[named(point)]
+            self._pressures[key] = remembered(p)
+        return self._pressures[key]
 
-    @cached_property
-    def _pressures(self) -> dict[str, Function]:
-        return {}
-
-    def _second_left(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("L_N_left", point), self._second("left", point, contact)
-
-    def _second_right(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("L_N_right", point), self._second("right", point, contact)
-
-    def _second(self, side: str, point: Point, contact: Contact) -> mpf:
+    def _second(self, side: str) -> Value:
         """(p/sqrt(s) - K_N)/s so close to the edge that the next term affects no digit."""
-        with mpmath.workdps(3 * WORKING):
-            s = contact.h * mpf(10) ** (2 - WORKING)
-            place = s - point[a] if side == "left" else point[c] - s
-            with digits(mpmath.mp.dps + _SPARE):
-                pressure = number(self._p(point)(ball(place)))
-            first = self._at(f"K_N_{side}", point)
-            return (pressure / mpmath.sqrt(s) - first) / s
+
+        def value(point: Point, contact: Contact) -> mpf:
+            with mpmath.workdps(3 * WORKING):
+                s = contact.h * mpf(10) ** (2 - WORKING)
+                place = s - point[a] if side == "left" else point[c] - s
+                pressure = self._at("pressure", {**point, x: place})
+                return (pressure / mpmath.sqrt(s) - self._at(f"K_N_{side}", point)) / s
+
+        return value
 
     @cached_property
     def _stuck(self) -> tuple[Expr, Expr]:
@@ -220,9 +188,27 @@ class NumericalRoutes:
         return numerical_proof(f"substituted into {_names(asked)}", comparisons())
 
 
-def _of_series(side: str, order: int) -> Callable[[Contact], mpf]:
+def _of_series(side: str, order: int) -> Value:
     """A coefficient of p/sqrt(s), from three points so close to the edge that a parabola fits."""
-    return lambda contact: contact.edge_series(side)[order]
+    return lambda _, contact: contact.edge_series(side)[order]
+
+
+_OF_G: dict[str, tuple[str, Value]] = {
+    "tilt": (_QUADRATURE, lambda _, contact: contact.tilt),
+    "pressure": (_QUADRATURE, lambda point, contact: contact.pressure(point[x])),
+}
+_OF_G_ALONE: dict[str, tuple[str, Value]] = {
+    "load": ("(E*/2) I_1 of g(x) by quadrature", lambda _, contact: contact.load),
+    "moment": ("-(E*/2) (I_2 - mid I_1) of g(x) by quadrature", lambda _, contact: contact.moment),
+    **{
+        f"{name}_N_{side}": (
+            f"{_QUADRATURE}, next to the {side} edge",
+            _of_series(side, order),
+        )
+        for order, name in enumerate("KL")
+        for side in ("left", "right")
+    },
+}
 
 
 def _names(asked: list[Symbol]) -> str:
