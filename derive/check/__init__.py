@@ -3,15 +3,11 @@
     module         input                     output
     -------------  ------------------------  --------------------------------------------------
     claim                                    the data class of a printed equation
-    kinks          expression                points where it may kink, jump, peak or diverge
     domain         expression, ranges        whether it is shown to be continuous
     draw           claim                     points: random, over decades, at kinks and at spikes
-    quadrature     integrand, cuts           the integral, by two rules that agree
-    values         expression, point         the value at the working precision
-    numbers        two sides, point          both values to 30 digits that are known to be right
+    numbers        two sides, point          both values to 30 digits that are certain
     zero           expression                whether exact steps show that it vanishes identically
     repair         printed equation          similar equations that may have been intended
-    quick          expression                a few digits, to compare candidates quickly
     bodies         geometry                  its formulas, each proven
     tending        claim about a limit       whether the sides approach each other, and how fast
     diagnosis      false equation            by what its sides differ, and where it is true

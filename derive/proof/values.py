@@ -74,7 +74,7 @@ def evaluated(expr: Expr, numbers: Numbers) -> Value:
             found = enclosed(expr, numbers)
         if known_digits(found) >= working:
             return +number(found)
-    if not found.contains(0):
+    if not found.contains(0) or abs(found).upper() > arb(10) ** -working:
         raise Undecided(f"cancellation leaves fewer than {working} digits")
     return mpf(0)
 
