@@ -12,9 +12,9 @@
     publish        files, a directory         the directory, replaced as a whole
     differences    files, a directory         the changes that would be made
 
-    build          a name or a file           Body: the first five stages, as plain data
-    build_all      names and files            a Body for each, several built at once (parallel.py)
-                                              or read from the cache (cache.py)
+    build          a name or a file           BuiltBody: the first five stages, as plain data
+    build_all      names and files            a BuiltBody for each: several built at once, or read
+                                              from the cache
 
 A missing proof stops the build at module_text or demand_right, and nothing is written.  `build`
 imports its stages only when it is called, because cached bodies do not need them.
@@ -39,10 +39,10 @@ from derive.codegen.publish import (
 )
 from derive.command.cache import key_of, program_as_loaded, program_digest, users_cache
 from derive.command.errors import BadOutput, BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
-from derive.command.folder import demand_replaceable, remove_leftovers
+from derive.command.folder import demand_replaceable
 from derive.command.limit import DEFAULT
 from derive.command.processes import Bounds, Report, in_processes
-from derive.sheet.built import Body, by_form
+from derive.sheet.built import BuiltBody, by_form
 
 GENERATED = Path(__file__).parent.parent / "generated"
 """The package under version control."""
@@ -51,7 +51,7 @@ STAGES = (
     *("reading g(x)", "deriving", "looking for closed forms"),
     *("proving", "generating", "testing"),
 )
-STRANGERS = Bounds(seconds=600, gigabytes=4, stages={STAGES[0]: 60})
+USER_FILE_LIMITS = Bounds(seconds=600, gigabytes=4, stages={STAGES[0]: 60})
 """Limits for a body outside the library; none of twenty such bodies needed a tenth of them."""
 
 DONE, KEPT = "done", "kept"
@@ -62,7 +62,7 @@ def _silent(body: str, stage: str) -> None:
     """Ignore a report."""
 
 
-def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Body:
+def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> BuiltBody:
     """Build one body, from its name or file to the text of its module.
 
     limit: time in seconds for the search for closed forms of integrals; the text of the module does
@@ -97,9 +97,11 @@ def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Body
     closed, numerical = by_form(sheet.is_closed)
     verdicts = tuple((name, f.proof.verdict) for name, f in sheet.items() if f.proof)
     proofs = tuple((name, str(f.proof)) for name, f in sheet.items() if f.proof)
-    struck = sheet.remark if sheet.remark.startswith(NONE_IN_TIME) else ""
+    time_limit_note = sheet.remark if sheet.remark.startswith(NONE_IN_TIME) else ""
     seconds = perf_counter() - began
-    return Body(geometry.name, text, stuck, seconds, closed, numerical, verdicts, proofs, struck)
+    return BuiltBody(
+        geometry.name, text, stuck, seconds, closed, numerical, verdicts, proofs, time_limit_note
+    )
 
 
 def build_all(
@@ -108,7 +110,7 @@ def build_all(
     jobs: int = 1,
     fresh: bool = False,
     limit: float = DEFAULT,
-) -> list[Body]:
+) -> list[BuiltBody]:
     """The bodies of all sources, in order; `jobs` processes build those that are not in the cache.
 
     fresh: build all bodies and do not read the cache.
@@ -116,7 +118,7 @@ def build_all(
 
     Raises what `build` raises for the first source that fails, and stops work on the others.
     Raises LostProcess if a process ends early, TwoOfOneName before anything is built if the files
-    state the same name, and RanAway for a file whose body exceeds the limits STRANGERS.
+    state the same name, and RanAway for a file whose body exceeds the limits USER_FILE_LIMITS.
     """
     _demand_names_of_their_own(sources)
     keys = _keys(sources, limit)
@@ -124,7 +126,7 @@ def build_all(
     for source in bodies:
         report(source, KEPT)
     missing = [(source, key, limit) for source, key in keys.items() if source not in bodies]
-    bounds = None if all(is_in_library(source) for source, *_ in missing) else STRANGERS
+    bounds = None if all(is_in_library(source) for source, *_ in missing) else USER_FILE_LIMITS
     made = in_processes(_build_and_keep, missing, report, jobs, bounds)
     bodies |= {source: body for (source, *_), body in zip(missing, made, strict=True)}
     return [bodies[source] for source in sources]
@@ -168,13 +170,13 @@ def _key(source: str, program: str, limit: float) -> str | None:
     return key_of(_path(source), origin, program)
 
 
-def _kept(keys: Mapping[str, str | None]) -> dict[str, Body]:
+def _kept(keys: Mapping[str, str | None]) -> dict[str, BuiltBody]:
     """Cached bodies, by source."""
     found = {source: users_cache().get(key) for source, key in keys.items()}
     return {source: body for source, body in found.items() if body}
 
 
-def _build_and_keep(asked: tuple[str, str | None, float], report: Report) -> Body:
+def _build_and_keep(asked: tuple[str, str | None, float], report: Report) -> BuiltBody:
     """Build one body, and keep it under its key unless a file it depends on has changed."""
     source, key, limit = asked
     body = build(source, report, limit)
@@ -247,7 +249,7 @@ class Order:
         """Every source once, in the order given."""
         return tuple(dict.fromkeys(self.sources)) or library()
 
-    def files(self, bodies: Iterable[Body]) -> dict[str, str]:
+    def files(self, bodies: Iterable[BuiltBody]) -> dict[str, str]:
         """The files of the package: the bodies given, and those of `generated` that stay.
 
         Raises TwoOfOneName.
@@ -260,16 +262,14 @@ class Order:
         kept = modules_in(GENERATED) if self.folder is None and self.sources else {}
         return package_files(kept | made, with_runtime=not self.kept)
 
-    def write(self, bodies: Iterable[Body]) -> list[Difference]:
+    def write(self, bodies: Iterable[BuiltBody]) -> list[Difference]:
         """Write the package; return how the directory differed from it before."""
         files = self.files(bodies)
         found = differences(files, self.target, self.kept)
         if found:
             publish(files, self.target, self.kept)
-        else:
-            remove_leftovers(self.target, self.kept)
         return found
 
-    def check(self, bodies: Iterable[Body]) -> list[Difference]:
+    def check(self, bodies: Iterable[BuiltBody]) -> list[Difference]:
         """The differences between the directory and what would be written."""
         return differences(self.files(bodies), self.target, self.kept)

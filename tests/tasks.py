@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 from derive.command.cache import Cache
 from derive.command.errors import BadUnit, NotProven, UnknownGeometry
 from derive.command.processes import Report
-from derive.sheet.built import Body
+from derive.sheet.built import BuiltBody
 
 KEY = "0" * 64
 
@@ -57,7 +57,7 @@ def cannot_print() -> Exception:
 
 ERRORS: dict[str, Callable[[], BaseException]] = {
     "user": lambda: UnknownGeometry(given="sphere", known=("hertz", "wedge")),
-    "object": lambda: BadUnit(lambda: 3, "is no text"),
+    "object": lambda: BadUnit(repr(len), "is no text"),
     "proof": lambda: NotProven("tilt of 'body': unknown: no point drawn"),
     "print": cannot_print,
     "strange": lambda: Strange(1, 2),
@@ -80,7 +80,7 @@ def fails(item: str, report: Report) -> str:
     return item
 
 
-def write_often(item: tuple[str, Body], report: Report) -> int:
+def write_often(item: tuple[str, BuiltBody], report: Report) -> int:
     """Keep a body many times under one key; how often what was then there was whole."""
     folder, body = item
     cache, whole = Cache(Path(folder)), 0

@@ -14,7 +14,7 @@ from derive.command.errors import NotProven
 from derive.command.processes import Report
 from derive.pipeline import DONE, KEPT, STAGES, build_all
 from derive.proof.verdict import Verdict
-from derive.sheet.built import Body
+from derive.sheet.built import BuiltBody
 
 ROOT = Path(__file__).parents[1]
 
@@ -27,17 +27,19 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The sources that a `build` without any work was asked for."""
     sources = []
 
-    def build(source: str, report: Report, limit: float) -> Body:
+    def build(source: str, report: Report, limit: float) -> BuiltBody:
         sources.append(source)
         for stage in STAGES:
             report(source, stage)
         path = FOLDER / f"{source}.py" if source in library() else Path(source)
-        return Body(
+        return BuiltBody(
             Path(source).stem, path.read_text(), "", 0.5, ("forward",), (), VERDICTS, PROOFS
         )
 
     monkeypatch.setattr(derive.pipeline, "build", build)
-    monkeypatch.setattr(derive.pipeline, "STRANGERS", None)  # another process would know of neither
+    monkeypatch.setattr(
+        derive.pipeline, "USER_FILE_LIMITS", None
+    )  # another process would know of neither
     return sources
 
 
@@ -123,7 +125,7 @@ def test_what_was_built_before_a_failure_is_kept(
     """So the next run, after the repair, does not begin anew."""
     build = derive.pipeline.build
 
-    def failing(source: str, report: Report, limit: float) -> Body:
+    def failing(source: str, report: Report, limit: float) -> BuiltBody:
         if source == files[2]:
             raise NotProven(source)
         return build(source, report, limit)

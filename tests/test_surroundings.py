@@ -11,7 +11,7 @@ from derive.body.library import FOLDER
 from derive.command.cache import key_of, program_as_loaded, users_cache
 from derive.pipeline import GENERATED
 from derive.proof.verdict import Verdict
-from derive.sheet.built import Body
+from derive.sheet.built import BuiltBody
 from tests.commands import MODULE, real
 
 pytestmark = [
@@ -32,7 +32,7 @@ def hertz_is_kept() -> None:
     texts = ((GENERATED / f"{name}.py").read_text("utf-8") for name in ("hertz", "full_stick"))
     proofs = (("tilt", "proven: a stand-in for a proof"),)
     assert key is not None
-    users_cache().put(key, Body("hertz", *texts, 0.5, ("forward",), (), verdicts, proofs))
+    users_cache().put(key, BuiltBody("hertz", *texts, 0.5, ("forward",), (), verdicts, proofs))
 
 
 def derive(folder: Path, command: str, before: str = "") -> CompletedProcess[str]:

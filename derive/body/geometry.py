@@ -4,7 +4,7 @@ import keyword
 import re
 from collections.abc import Iterable
 from copy import copy
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -233,7 +233,8 @@ class Geometry:
             check(self.g, "m", f"g of {self.name!r}", self.dimensions)
         except DimensionMismatch as error:
             first = f"{error.remedy}; " if self.parameters else ""
-            raise replace(error, remedy=f"{first}{_NUMBERS}") from None
+            error.remedy = f"{first}{_NUMBERS}"
+            raise
 
     @cached_property
     def slope(self) -> Slope:

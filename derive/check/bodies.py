@@ -1,7 +1,7 @@
 """Provide the formulas of a body, each of them proven before use.
 
 In:   a geometry.
-Out:  Body: its parameters, its formula sheet, and its formulas.
+Out:  ProvenBody: its parameters, its formula sheet, and its formulas.
 """
 
 from functools import cache
@@ -17,7 +17,7 @@ from derive.sheet.derivation import derive_sheet
 from derive.sheet.formulas import FormulaSheet
 
 
-class Body:
+class ProvenBody:
     """A geometry with its formula sheet, whose formulas are proven before they are returned."""
 
     def __init__(self, geometry: Geometry) -> None:
@@ -41,9 +41,9 @@ class Body:
 
 
 @cache
-def of_library(name: str) -> Body:
+def of_library(name: str) -> ProvenBody:
     """Return a body of the library."""
-    return Body(load_geometry(name))
+    return ProvenBody(load_geometry(name))
 
 
 def placed(expr: Expr, table: dict[Symbol, Expr]) -> Expr:

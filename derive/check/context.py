@@ -14,12 +14,18 @@ from sympy import Derivative, Expr, Integral, Limit, Symbol
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
-from derive.check.bodies import Body, placed
+from derive.check.bodies import ProvenBody, placed
 from derive.check.claim import Meaning
 from derive.command.errors import UserError
-from derive.reading.dimensions import Call, Units, ordinary
-from derive.reading.improper import FROM_POLE, IMPROPER, PrincipalValue, ToInfinity, proper
-from derive.reading.units import Dimension, parse_unit
+from derive.reading.improper import (
+    FROM_POLE,
+    IMPROPER,
+    PrincipalValue,
+    ToInfinity,
+    ordinary,
+    proper,
+)
+from derive.reading.units import Call, Dimension, Units, parse_unit
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, M, P, e, f, x
 
@@ -36,7 +42,7 @@ class Context:
     inherited  units of the parameters of the file's body, if the claim has another one
     """
 
-    body: Body | None
+    body: ProvenBody | None
     variables: Mapping[str, Expr]
     units: Mapping[Symbol, Dimension]
     inherited: Mapping[Symbol, Dimension] = field(default_factory=dict)

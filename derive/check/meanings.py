@@ -17,8 +17,8 @@ from derive.check.lines import line_of
 from derive.check.mistakes import Collected
 from derive.check.variables import Variables, demand_name
 from derive.command.errors import UserError
-from derive.reading.dimensions import Units
 from derive.reading.formula import Names, equation, formula, usable
+from derive.reading.units import Units
 from derive.symbols import E_star, f
 
 _OF_A_SYMBOL = frozenset({"is", "meaning", "proposal", "unit"})

@@ -13,7 +13,7 @@ from typing import Any, TypeGuard
 from sympy import Expr, Symbol
 
 from derive.body.library import is_in_library, library
-from derive.check.bodies import Body, of_library
+from derive.check.bodies import ProvenBody, of_library
 from derive.check.claim import SCALE, Range
 from derive.check.context import PLACES, Context
 from derive.check.entries import Entries, Place
@@ -21,9 +21,9 @@ from derive.check.geometry_file import profile_of
 from derive.check.lines import line_of
 from derive.check.mistakes import Collected
 from derive.command.errors import BadFormula, BadText, BadUnit, UserError
-from derive.command.new_geometry import Wanted, draft
-from derive.command.new_in_process import BOUNDS
+from derive.command.new_geometry import new_geometry
 from derive.command.processes import Report, in_processes
+from derive.command.wanted import TEXT_LIMITS, Wanted
 from derive.reading.formula import usable
 from derive.reading.units import Dimension, parse_unit
 from derive.symbols import E_star, f
@@ -45,7 +45,7 @@ class Variables:
     units     the units that the file declares, also of symbols
     """
 
-    body: Body | None = None
+    body: ProvenBody | None = None
     declared: dict[str, Expr] = field(default_factory=dict)
     ranges: dict[Symbol, Range] = field(default_factory=dict)
     units: dict[Symbol, Dimension] = field(default_factory=dict)
@@ -64,7 +64,7 @@ class Variables:
         """The context of the file's body; all variables must have been declared."""
         return self._context(self.body)
 
-    def _context(self, body: Body | None) -> Context:
+    def _context(self, body: ProvenBody | None) -> Context:
         """Return the context of a body; parameters of the file's body are always variables."""
         inherited = self.body.parameters if self.body else {}
         own = body.parameters if body else {}
@@ -137,7 +137,7 @@ def is_bound(given: object) -> TypeGuard[float]:
     return type(given) in (int, float) and abs(given) < _FAR  # type: ignore[arg-type]
 
 
-def _body(given: object, place: Place) -> Body | None:
+def _body(given: object, place: Place) -> ProvenBody | None:
     """Return a body of the library, of a geometry file or of a table with g; None for "none"."""
     if given is None or given == "none":
         return None
@@ -167,19 +167,19 @@ def _body(given: object, place: Place) -> Body | None:
 
 
 @cache
-def _own_body(profile: str, units: tuple[tuple[str, str], ...]) -> Body:
+def _own_body(profile: str, units: tuple[tuple[str, str], ...]) -> ProvenBody:
     """Return a body whose profile is text in the claims file, which is never executed.
 
     It is first derived in another process, because SymPy can run without end or abort.
     """
     wanted = Wanted("own_body", profile, units=dict(units))
-    in_processes(_derived, [wanted], lambda *_: None, 1, BOUNDS)
-    return Body(draft(wanted).geometry)
+    in_processes(_derived, [wanted], lambda *_: None, 1, TEXT_LIMITS)
+    return ProvenBody(new_geometry(wanted)[0])
 
 
 def _derived(wanted: Wanted, report: Report) -> None:
     """Read and derive a body, without a result."""
     report("g(x)", "reading")
-    made = draft(wanted)
+    geometry, _ = new_geometry(wanted)
     report("g(x)", "deriving")
-    Body(made.geometry)
+    ProvenBody(geometry)

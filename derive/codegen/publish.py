@@ -14,8 +14,7 @@ from pathlib import Path
 
 from derive.codegen.mark import MARK
 from derive.command.errors import BadOutput
-from derive.command.folder import replace_folder
-from derive.command.manifest import entries, with_manifest
+from derive.command.folder import entries, replace_folder, with_manifest
 
 RUNTIME = "runtime"
 """The folder of the library."""

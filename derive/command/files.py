@@ -1,15 +1,27 @@
-"""Read a user's files completely, up to a size limit; write them completely or not at all.
+"""Read a user's files up to a size limit; write a file completely or not at all.
 
 In:  a path and a largest size in bytes, or the content to be written.
 Out: the content of the file, or the written file.
+
+While a file is written, Ctrl-C and a request to end wait, so that no incomplete file stays behind.
 """
 
 import errno
 import os
 import secrets
-from collections.abc import Iterator
-from contextlib import contextmanager
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
+
+from derive.command.errors import BadPage, BadTarget, UserError
+
+MARK = '<meta name="generator" content="derive '
+"""A tag in every page made by a command of this package; only such pages are replaced."""
+
+Refusal = Callable[[str, str], UserError]
+"""An error class, called with a path and with the reason, in words that follow its name."""
 
 
 class Unreadable(Exception):
@@ -64,44 +76,120 @@ def _exists(path: Path) -> bool:
     return True
 
 
+@contextmanager
+def signals_held_back() -> Iterator[None]:
+    """Delay Ctrl-C and a request to end until the end of the block."""
+    came: list[int] = []
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    held = [number for number, handler in before.items() if callable(handler)]
+    with suppress(ValueError):  # another thread than the main one receives no signals
+        for number in held:
+            signal.signal(number, lambda which, _: came.append(which))
+    try:
+        yield
+    finally:
+        with suppress(ValueError):
+            for number in held:
+                signal.signal(number, before[number])
+        for which in came[:1]:
+            signal.raise_signal(which)
+
+
+@contextmanager
+def refused_as(refusal: Refusal, path: Path, what: str = "cannot be written") -> Iterator[None]:
+    """Raise `refusal` if the system does not allow what the block does with a path."""
+    try:
+        yield
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise refusal(str(path), f"{what} ({reason})") from error
+
+
 def write_whole(content: bytes, path: Path, mode: int = 0o644) -> None:
     """Replace a file in one step: it is never seen incomplete, and a failure leaves the old one.
 
     Raises OSError.
     """
-    with _workpiece(content, path) as workpiece:
-        workpiece.chmod(mode)
-        workpiece.replace(path)
+    workpiece = path.with_name(f".{path.stem[:40]}-{secrets.token_hex(8)}.tmp")
+    with signals_held_back():
+        write_new(content, workpiece)
+        try:
+            workpiece.chmod(mode)
+            workpiece.replace(path)
+        finally:
+            workpiece.unlink(missing_ok=True)
 
 
 def write_new(content: bytes, path: Path) -> None:
-    """Write a new file, which is never seen incomplete.
+    """Write a new file; a failure leaves none.
 
     Raises FileExistsError if the file exists or is created in the meantime, or another OSError.
     """
-    with _workpiece(content, path) as workpiece:
+    with signals_held_back(), path.open("xb") as file:
         try:
-            path.hardlink_to(workpiece)
-        except FileExistsError:
-            raise
-        except OSError:  # a file system without hard links: create an empty file, then replace it
-            path.open("xb").close()
-            try:
-                workpiece.replace(path)
-            except OSError:
-                path.unlink()
-                raise
-
-
-@contextmanager
-def _workpiece(content: bytes, path: Path) -> Iterator[Path]:
-    """A finished file beside the path, which is removed at the end of the block."""
-    workpiece = path.with_name(f".{path.stem[:40]}-{secrets.token_hex(8)}.tmp")
-    try:
-        with workpiece.open("xb") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        yield workpiece
-    finally:
-        workpiece.unlink(missing_ok=True)
+        except BaseException:
+            path.unlink()
+            raise
+
+
+# ------------------------------------------------------------------ what the commands write
+
+
+def place_of_geometry(name: str, out: Path | None) -> Path:
+    """The path for the file of a new geometry.
+
+    out: a directory, a path that ends in .py, or None for the current directory
+
+    Raises BadTarget if no new file can be created there.
+    """
+    folder = out if out is not None else Path()
+    with refused_as(BadTarget, folder):
+        path = folder if folder.suffix == ".py" and not folder.is_dir() else folder / f"{name}.py"
+        if os.path.lexists(path):
+            raise BadTarget(str(path), "already exists")
+        if not path.parent.is_dir():
+            raise BadTarget(str(path.parent), "is not a directory")
+        demand_writable(path)
+    return path
+
+
+def write_geometry(path: Path, text: str) -> None:
+    """Write the file of a new geometry; raises BadTarget."""
+    with refused_as(BadTarget, path):
+        try:
+            write_new(text.encode(), path)
+        except FileExistsError as error:
+            raise BadTarget(str(path), "already exists") from error
+
+
+def put_page(text: str, path: Path, option: str = "--out", mark: str = MARK) -> None:
+    """Write one file; only a file made by this package, which has the mark, is replaced.
+
+    option: the option that gave the path
+
+    Raises BadPage if the path must not be replaced or cannot be written.
+    """
+    demand_page(path, option, mark)
+    with refused_as(partial(BadPage, option=option), path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(text.encode(), path)
+
+
+def demand_page(path: Path, option: str = "--out", mark: str = MARK) -> None:
+    """Raise BadPage if `put_page` would not write this path; call this before a long task."""
+    with refused_as(partial(BadPage, option=option), path):
+        demand_writable(path)
+    if path.is_dir():
+        raise BadPage(str(path), "is a directory", option)
+    if (path.exists() or path.is_symlink()) and not _has_mark(path, mark):
+        raise BadPage(str(path), "exists and was not made by `derive`", option)
+
+
+def _has_mark(path: Path, mark: str) -> bool:
+    if not path.is_file() or (mark == MARK and path.suffix != ".html"):
+        return False
+    with path.open("rb") as file:
+        return mark.encode() in file.read(2000)

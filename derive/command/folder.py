@@ -1,39 +1,40 @@
 """Replaces a directory by other files, completely or not at all.
 
-In:  the texts of the files, by name, with their list (manifest.py).
-Out: the replaced directory; or an error, of the caller's class, and nothing has changed.
+In:  the texts of the files, by name; the first is their list, with their checksums, in the format
+     of the command sha256sum.
+Out: the replaced directory; or an error, of the caller's class, and nothing has changed.  A file
+     that is not in the list of a directory or differs from it belongs to the user: nothing is
+     replaced.
 
-Linux can exchange two names in a single step.  A directory is then complete at every moment, even
-if the process is killed.  Other systems need two steps.  If the process is killed between them, the
-old directory is left in the hidden directory next to its place, and the next run writes the new
-directory.
+Ctrl-C and a request to end wait until everything is in place.  If the process is killed between the
+two steps, the old directory is left in the hidden directory next to its place.
 """
 
-import ctypes
-import os
 import re
 import shutil
 import tempfile
-import time
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Iterator, Mapping
+from hashlib import sha256
 from pathlib import Path
 
-from derive.command.files import demand_writable
-from derive.command.manifest import not_written
+from derive.command.errors import BadPage
+from derive.command.files import Refusal, demand_writable, refused_as, signals_held_back
+
+MANIFEST = "files.sha256"
+"""The name of the list."""
+
+_COMPILED, _SUFFIXES = "__pycache__", (".pyc", ".nbi", ".nbc")
+"""The folder of compiled files, which Python and numba write again if it is missing, and their
+suffixes; any other file in that folder belongs to the user."""
 
 _FRESH, _PREVIOUS = "fresh", "old"
 """The new and the previous directory in the hidden directory of a run."""
 
-_AGE = 5.0
-"""Age in seconds above which a hidden directory may be left over from a run that was killed."""
 
-_HERE, _EXCHANGE = -100, 2
-"""Values of AT_FDCWD and RENAME_EXCHANGE on Linux."""
-
-
-Refusal = Callable[[str, str], Exception]
-"""An error class, called with the directory and with the reason, in words that follow its name."""
+def with_manifest(files: Mapping[str, str]) -> dict[str, str]:
+    """The texts of all files of a directory, by name; their list comes first."""
+    lines = [f"{_checksum(text.encode())}  {name}" for name, text in sorted(files.items())]
+    return {MANIFEST: "\n".join([*lines, ""]), **files}
 
 
 def replace_folder(
@@ -48,71 +49,54 @@ def replace_folder(
     written.
     """
     demand_replaceable(folder, refusal, kept)
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
-    except OSError as error:
-        raise refusal(str(folder), f"cannot be written ({error.strerror})") from error
-    with in_use(workshop):
-        _fill_and_exchange(files, folder, workshop, refusal, kept)
-    remove_leftovers(folder, kept)
+    with signals_held_back():
+        with refused_as(refusal, folder):
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+        fresh, old = workshop / _FRESH, workshop / _PREVIOUS
+        try:
+            fresh.mkdir()
+            if kept:
+                shutil.copytree(folder / kept, fresh / kept)
+            for name, text in files.items():
+                (fresh / name).parent.mkdir(parents=True, exist_ok=True)
+                (fresh / name).write_bytes(text.encode())
+            if folder.exists():
+                folder.replace(old)
+            fresh.replace(folder)
+        except BaseException as error:
+            note = _put_back(old, folder)
+            if isinstance(error, OSError):
+                why = f"cannot be replaced ({error.strerror}){note}"
+                raise refusal(str(folder), why) from error
+            raise
+        finally:
+            if folder.exists() or not old.exists():
+                shutil.rmtree(workshop, ignore_errors=True)
+
+
+def demand_pages(folder: Path) -> None:
+    """Raise BadPage if `put_pages` would not write this directory."""
+    demand_replaceable(folder, BadPage)
+
+
+def put_pages(pages: Mapping[str, str], folder: Path) -> None:
+    """Replace a directory by pages, given by their file names; raises BadPage."""
+    replace_folder(with_manifest(pages), folder, BadPage)
 
 
 def demand_replaceable(folder: Path, refusal: Refusal, kept: str = "") -> None:
     """Raise `refusal` unless `folder` can be created, is empty, or holds only files of a list."""
-    try:
+    with refused_as(refusal, folder):
         demand_writable(folder)
-    except OSError as error:
-        raise refusal(str(folder), f"cannot be written ({error.strerror})") from error
     if not folder.exists() and not folder.is_symlink():
         return
     if folder.is_symlink() or not folder.is_dir():
         raise refusal(str(folder), "is not a directory")
-    if stranger := not_written(folder, edited=not kept, kept=kept):
+    if stranger := _not_written(folder, kept):
         raise refusal(str(folder), f"contains {stranger}")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
         raise refusal(str(folder), "is the current directory or contains it")
-
-
-def _fill_and_exchange(
-    files: Mapping[str, str], folder: Path, workshop: Path, refusal: Refusal, kept: str
-) -> None:
-    fresh, old = workshop / _FRESH, workshop / _PREVIOUS
-    try:
-        fresh.mkdir()
-        if kept:
-            shutil.copytree(folder / kept, fresh / kept)
-        for name, text in files.items():
-            (fresh / name).parent.mkdir(parents=True, exist_ok=True)
-            (fresh / name).write_bytes(text.encode())
-        _put_in_place(fresh, folder, old)
-    except OSError as error:
-        why = f"cannot be replaced ({error.strerror}){_put_back(old, folder)}"
-        raise refusal(str(folder), why) from error
-    except BaseException:
-        _put_back(old, folder)
-        raise
-    finally:
-        if folder.exists() or not old.exists():
-            shutil.rmtree(workshop, ignore_errors=True)
-
-
-def _put_in_place(fresh: Path, folder: Path, old: Path) -> None:
-    """Rename `fresh` to `folder`; the previous `folder` becomes `old` or `fresh`."""
-    if folder.exists():
-        if _exchanged(fresh, folder):
-            return
-        folder.replace(old)
-    fresh.replace(folder)
-
-
-def _exchanged(one: Path, other: Path) -> bool:
-    """Exchange the names of two directories; False if the system or the disk cannot do this."""
-    try:
-        rename = ctypes.CDLL(None).renameat2
-    except (AttributeError, OSError, TypeError):
-        return False
-    return bool(rename(_HERE, os.fsencode(one), _HERE, os.fsencode(other), _EXCHANGE) == 0)
 
 
 def _put_back(old: Path, folder: Path) -> str:
@@ -125,52 +109,57 @@ def _put_back(old: Path, folder: Path) -> str:
     return ""
 
 
-# ---------------------------------------------------------------- what a killed run has left
+# ------------------------------------------------------------------ the list of the files
 
 
-@contextmanager
-def in_use(workshop: Path) -> Iterator[bool]:
-    """Lock a directory during the block; False if another process has locked it.
+def _not_written(folder: Path, kept: str) -> str:
+    """Name the first entry that belongs to the user, and say why; "" if there is none."""
+    listed = _listed(folder / MANIFEST)
+    for path in entries(folder, listed, kept):
+        name = path.relative_to(folder).as_posix()
+        if path.is_file() and listed and name == MANIFEST:
+            continue
+        if name not in listed:
+            unlisted = f"is not in the list {MANIFEST} of what was written there"
+            return f"{name!r}, which {unlisted if listed else 'was not written by `derive`'}"
+        if not path.is_file() or (not kept and _checksum(path.read_bytes()) != listed[name]):
+            return f"{name!r}, which was changed after it was written"
+    return ""
 
-    The system removes the lock when the process ends, however it ends.
+
+def entries(folder: Path, names: Iterable[str], kept: str = "") -> list[Path]:
+    """All entries of a directory, in order, except compiled files and the entry `kept`.
+
+    A folder is entered if it is to hold one of the named files; any other counts as one entry.
     """
-    try:
-        from fcntl import LOCK_EX, LOCK_NB, flock
+    inner = {folder / parent for name in names for parent in Path(name).parents}
 
-        descriptor = os.open(workshop, os.O_RDONLY)
-    except (ImportError, OSError):  # a system without such locks: nothing is removed
-        yield False
-        return
-    try:
-        try:
-            flock(descriptor, LOCK_EX | LOCK_NB)
-            locked = True
-        except OSError:
-            locked = False
-        yield locked
-    finally:
-        os.close(descriptor)
+    def below(here: Path) -> Iterator[Path]:
+        for path in sorted(here.iterdir()) if here.is_dir() else []:
+            if path == folder / kept:
+                continue
+            if path in inner and path.is_dir() and not path.is_symlink():
+                yield from below(path)
+            elif path.name == _COMPILED and path.is_dir() and not path.is_symlink():
+                yield from (each for each in sorted(path.iterdir()) if not _is_compiled(each))
+            else:
+                yield path
+
+    return [*below(folder)]
 
 
-def remove_leftovers(folder: Path, kept: str = "") -> None:
-    """Remove the hidden directories that killed runs have left next to a directory.
-
-    Only those with a name that `replace_folder` gives are removed, and only if they hold nothing
-    but listed files and no process uses them.
-    """
-    named = re.compile(rf"\.{re.escape(folder.name)}-[a-z0-9_]{{8}}")
-    with suppress(OSError):
-        for path in [p for p in folder.parent.iterdir() if named.fullmatch(p.name)]:
-            with suppress(OSError), in_use(path) as unused:
-                if unused and _is_leftover(path, kept):
-                    shutil.rmtree(path, ignore_errors=True)
+def _is_compiled(path: Path) -> bool:
+    return path.is_file() and not path.is_symlink() and path.suffix in _SUFFIXES
 
 
-def _is_leftover(path: Path, kept: str) -> bool:
-    if path.is_symlink() or not path.is_dir() or time.time() - path.stat().st_mtime < _AGE:
-        return False
-    inside = list(path.iterdir())
-    if any(p.is_symlink() or not p.is_dir() for p in inside):
-        return False
-    named = {p.name for p in inside} <= {_FRESH, _PREVIOUS}
-    return named and not any(not_written(p, edited=False, kept=kept) for p in inside)
+def _checksum(content: bytes) -> str:
+    return sha256(content).hexdigest()
+
+
+def _listed(path: Path) -> dict[str, str]:
+    """The checksums in a list, by file name; empty if there is no such list."""
+    if path.is_symlink() or not path.is_file():
+        return {}
+    text = path.read_text(encoding="utf-8", errors="replace")
+    lines = [re.fullmatch(r"([0-9a-f]{64})  (.+)", line) for line in text.splitlines()]
+    return {line[2]: line[1] for line in lines if line} if all(lines) else {}

@@ -1,24 +1,20 @@
-"""Drafts a geometry file; all mistakes in its description are reported before it is written.
-
-In:  a name, g(x) as text, and the units and meanings of the parameters.
-Out: the Geometry and the text of the file that defines it.
-"""
+"""A new geometry from g(x) given as text; all mistakes are reported before its file is written."""
 
 import re
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 
 from sympy import Abs
 
 from derive.body.geometry import Geometry, parameter, without_x
 from derive.body.library import is_in_library
 from derive.codegen.module import formatted
-from derive.command.errors import BadName, BadOption, BadProfile, BadUnit, UserError
+from derive.command.errors import BadName, BadProfile, BadUnit, UserError
 from derive.command.python_of import code_of
-from derive.reading.lengths import units
+from derive.command.wanted import Wanted, bad_option
 from derive.reading.profile import parameters, read, tree_of, value
 from derive.reading.tree import Tree
+from derive.reading.units import units_of_profile
 from derive.reading.words import refusal
 from derive.symbols import RESERVED, x
 
@@ -37,45 +33,12 @@ _MODULES = sys.stdlib_module_names | {
 """Modules that a file with the same name would hide."""
 
 
-@dataclass(frozen=True)
-class Wanted:
-    """A user's description of a new geometry.
+def new_geometry(wanted: Wanted) -> tuple[Geometry, str]:
+    """The geometry that is described, and the text of the file that defines it.
 
-    units, meanings: those of the parameters, by name; both are optional
+    Raises BadName, BadText, BadOption, BadUnit, OpenUnits, and the exceptions of Geometry.
 
-    Raises BadName.
-    """
-
-    name: str
-    profile: str
-    title: str = ""
-    units: Mapping[str, str] = field(default_factory=dict)
-    meanings: Mapping[str, str] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        Geometry(self.name, g=Abs(x))  # raises BadName if the name is not allowed
-        if self.name in RESERVED:
-            raise BadName("geometry", self.name, "is reserved by the theory")
-        if self.name in _MODULES:
-            raise BadName("geometry", self.name, "would hide the Python module of that name")
-        if is_in_library(self.name):
-            raise BadName("geometry", self.name, "is already in the library")
-
-
-@dataclass(frozen=True)
-class Draft:
-    """A geometry, and the text of the file that defines it."""
-
-    geometry: Geometry
-    text: str
-
-
-def draft(wanted: Wanted) -> Draft:
-    """The geometry that is described, and the text of its file.
-
-    Raises BadText, BadOption, BadUnit, OpenUnits, and the exceptions of Geometry.
-
-    >>> print(draft(Wanted("cylinder", "x**2/(2*R)")).text)
+    >>> print(new_geometry(Wanted("cylinder", "x**2/(2*R)"))[1])
     \"""Profile g(x) = x**2/(2*R).\"""
     <BLANKLINE>
     from derive import Geometry, parameter, x
@@ -84,38 +47,42 @@ def draft(wanted: Wanted) -> Draft:
     geometry = Geometry("cylinder", g=x**2 / (2 * R))
     <BLANKLINE>
     """
+    _demand_name(wanted.name)
     tree = tree_of(wanted.profile)
     names = tuple(parameters(tree))
     for option, given in (("--unit", wanted.units), ("--meaning", wanted.meanings)):
-        _demand_known(option, given, names)
+        for name, text in given.items():
+            if name not in names:
+                raise bad_option(option, f"{name}={text}", _absent(name, names))
     for unit in wanted.units.values():
-        _demand_plain(unit)
+        if not unit.isprintable() or len(unit) > _LONGEST_UNIT:
+            why = (
+                f"it has more than {_LONGEST_UNIT} characters, or characters that cannot be printed"
+            )
+            raise BadUnit(repr(unit[:_LONGEST_UNIT]), why)
     if "x" not in tree.names():
         raise without_x(wanted.name, names)
     if (count := len(names)) > _MOST_PARAMETERS:
         why = f"has {count} parameters, and at most {_MOST_PARAMETERS} are allowed"
         raise BadProfile(wanted.name, why, "replace some of them by numbers")
     described = _described(wanted, tree)
-    return Draft(_geometry(wanted, tree, described), _text(wanted, tree, described))
+    return _geometry(wanted, tree, described), _text(wanted, tree, described)
 
 
-def _demand_known(option: str, given: Mapping[str, str], names: Sequence[str]) -> None:
-    """Refuse an option for a name that is not a parameter of g(x)."""
-    for name, text in given.items():
-        if name not in names:
-            raise BadOption(option, f"{name}={text}", _absent(name, names))
+def _demand_name(name: str) -> None:
+    """Raise BadName for a name that a new geometry cannot have."""
+    Geometry(name, g=Abs(x))
+    if name in RESERVED:
+        raise BadName("geometry", name, "is reserved by the theory")
+    if name in _MODULES:
+        raise BadName("geometry", name, "would hide the Python module of that name")
+    if is_in_library(name):
+        raise BadName("geometry", name, "is already in the library")
 
 
 def _absent(name: str, names: Sequence[str]) -> str:
     known = f"its parameters are {', '.join(names)}" if names else "it has no parameters"
     return f"g(x) has no parameter {name!r}; {known}"
-
-
-def _demand_plain(unit: str) -> None:
-    """Refuse a unit that does not fit on a line of the file."""
-    if not unit.isprintable() or len(unit) > _LONGEST_UNIT:
-        why = f"it has more than {_LONGEST_UNIT} characters, or characters that cannot be printed"
-        raise BadUnit(unit[:_LONGEST_UNIT], why)
 
 
 _Described = Mapping[str, tuple[str, str]]
@@ -125,7 +92,7 @@ _Described = Mapping[str, tuple[str, str]]
 def _described(wanted: Wanted, tree: Tree) -> _Described:
     """The meaning and unit of each parameter; a parameter without influence is refused."""
     g = read(wanted.profile)
-    units_of = units(g, wanted.units)
+    units_of = units_of_profile(g, wanted.units)
     names = parameters(tree)
     for name, column in names.items():
         if name not in units_of:
@@ -184,10 +151,10 @@ def _title(wanted: Wanted) -> str:
 
 def _docstring(title: str) -> str:
     """A title as a docstring of one line, whatever characters it contains."""
-    plain = "".join(_plain(character) for character in title)
+    plain = "".join(map(_escaped, title))
     return '"""' + re.sub('"(?="|$)', r"\"", plain) + '"""'
 
 
-def _plain(character: str) -> str:
+def _escaped(character: str) -> str:
     shown = character.isprintable() and character != "\\"
     return character if shown else repr(character)[1:-1]

@@ -4,15 +4,12 @@ In:  a function, items, and a report that is called with the progress of the pro
 Out: results in the order of the items.
 
 Bounds limit the time of a process in one stage, and its memory.  An item is refused if its process
-exceeds them or fails.
+exceeds them or fails.  The first failure, or Ctrl-C, ends all processes at once.
 
-The first failure, or Ctrl-C, ends all processes at once.  Processes are spawned, so that they
-start in the same way on every system.  Therefore the function must be importable from its module,
-items and results must be plain data, and a script that uses several processes must guard its own
-start with `if __name__ == "__main__":`.
-
-The first process has a separate connection to each of the others.  The connection closes as soon as
-its process ends; an executor of the standard library can miss the end of a new process.
+Processes are spawned, so that they start in the same way on every system.  Therefore the function
+must be importable from its module, items and results must be plain data, and a script that uses
+several processes must guard its own start with `if __name__ == "__main__":`.  The connection to a
+process closes as soon as the process ends, however it ends.
 """
 
 import os
@@ -30,7 +27,7 @@ from threading import Thread
 from time import monotonic, sleep
 from typing import TypeVar
 
-from derive.command.errors import LostProcess, RanAway
+from derive.command.errors import LostProcess, RanAway, UserError
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -38,10 +35,10 @@ Result = TypeVar("Result")
 Report = Callable[[str, str], None]
 """Called with the item that is worked on and the stage that it enters."""
 
-_MOST = 60
+_MAX_PROCESSES = 60
 """Largest number of processes that one process can wait for on every system."""
 _INTERVAL = 0.2
-"""Seconds between two checks for Ctrl-C, on systems where waiting delays it."""
+"""Seconds between two checks of the clock, and for Ctrl-C on systems where waiting delays it."""
 _GRACE = 2.0
 """Seconds that a process has, once it is told to end, to remove its temporary files."""
 _NO_MEMORY = 77
@@ -61,9 +58,42 @@ class Bounds:
     gigabytes: float
     stages: Mapping[str, float] = field(default_factory=dict)
 
-    def at(self, stage: str) -> float:
-        """Time limit of a stage in seconds."""
-        return self.stages.get(stage, self.seconds)
+
+@dataclass
+class _Worker:
+    """A process and its connection; the item and the stage in which it is, and since when."""
+
+    process: BaseProcess
+    line: Connection
+    number: int = -1
+    what: str = ""
+    stage: str = ""
+    since: float = 0.0
+
+    def enter(self, what: str, stage: str) -> None:
+        """Record that the process has entered a stage."""
+        self.what, self.stage, self.since = what, stage, monotonic()
+
+    def demand_in_time(self, bounds: Bounds | None) -> None:
+        """Raise RanAway if the time of the stage is over."""
+        seconds = bounds.stages.get(self.stage, bounds.seconds) if bounds else float("inf")
+        if monotonic() - self.since > seconds:
+            raise self._ran_away(f"took longer than the limit of {seconds:g} s")
+
+    def lost(self, bounds: Bounds | None, jobs: int) -> UserError:
+        """The error if the process has ended before its item was done."""
+        if bounds is None:
+            return LostProcess(jobs, jobs // 2)
+        self.process.join(_INTERVAL)
+        if self.process.exitcode == _NO_MEMORY:
+            return self._ran_away(f"needed more memory than the limit of {bounds.gigabytes:g} GB")
+        remedy = "simplify the profile, for example with fewer terms or nested functions"
+        return self._ran_away("crashed, which can happen if numbers are too large", remedy)
+
+    def _ran_away(
+        self, why: str, remedy: str = "simplify the profile, or the file that defines it"
+    ) -> RanAway:
+        return RanAway(self.what or "this body", self.stage or "starting", why, remedy)
 
 
 def cores() -> int:
@@ -87,148 +117,100 @@ def in_processes(
     Raises LostProcess if a process ends before its item is done.  With bounds, raises RanAway if a
     process exceeds them or ends early.
     """
-    jobs = min(jobs, len(items), _MOST)
+    jobs = min(jobs, len(items), _MAX_PROCESSES)
     if not items or (jobs <= 1 and bounds is None):
         return [function(item, report) for item in items]
-    with _processes(function, jobs, bounds) as processes:
-        return _results(processes, items, report, bounds)
+    with _workers(function, jobs, bounds) as workers:
+        return _results(workers, items, report, bounds)
 
 
 @contextmanager
-def _processes(
+def _workers(
     function: Callable[[Item, Report], Result], jobs: int, bounds: Bounds | None
-) -> Iterator[dict[Connection, BaseProcess]]:
-    """The processes, by connection; they work until the end of the block and no longer."""
+) -> Iterator[list[_Worker]]:
+    """Processes that work until the end of the block and no longer."""
     context = get_context("spawn")
-    started: dict[Connection, BaseProcess] = {}
-    lines: list[Connection] = []
+    workers: list[_Worker] = []
     try:
-        with _interrupts_held_back(), _safe_path():
+        with _starting():
             for _ in range(jobs):
                 line, other_end = context.Pipe()
-                lines.append(line)
-                process = context.Process(
-                    target=_work, args=(function, other_end, bounds), daemon=True
-                )
-                process.start()
-                started[line] = process
+                more = (function, other_end, bounds)
+                workers.append(_Worker(context.Process(target=_work, args=more, daemon=True), line))
+                workers[-1].process.start()
                 other_end.close()
-        yield started
+        yield workers
     finally:
-        for each in started.values():
-            each.terminate()
-        for each in started.values():
-            each.join(_GRACE)
-            each.kill()
-            each.join()
-        for line in lines:
-            line.close()
-
-
-def _results(
-    processes: Mapping[Connection, BaseProcess],
-    items: Sequence[Item],
-    report: Report,
-    bounds: Bounds | None,
-) -> list[Result]:
-    """Distribute the items one by one; pass reports on, and raise the first failure."""
-    waiting = iter(range(len(items)))
-    at_work: dict[Connection, int] = {}
-    watches: dict[Connection, _Watch] = {}
-    results: dict[int, Result] = {}
-
-    def hand_out(line: Connection) -> None:
-        number = next(waiting, None)
-        if number is not None:
-            at_work[line] = number
-            watches[line] = _Watch(processes[line], bounds, len(processes))
-            with watches[line].no_loss():
-                line.send(items[number])
-
-    for line in processes:
-        hand_out(line)
-    while at_work:
-        ready = wait([*at_work], _INTERVAL)
-        for line in [line for line in at_work if line not in ready]:
-            watches[line].look()
-        for line in [line for line in at_work if line in ready]:
-            with watches[line].no_loss():
-                what, *told = line.recv()
-            if what == "report":
-                watches[line].enter(*told)
-                report(*told)
-            elif what == "failure":
-                raise _with_note(*told)
-            else:
-                results[at_work.pop(line)] = told[0]
-                hand_out(line)
-    return [results[number] for number in range(len(items))]
-
-
-class _Watch:
-    """The work of one process on one item: the present stage, and when it began."""
-
-    def __init__(self, process: BaseProcess, bounds: Bounds | None, jobs: int) -> None:
-        self.process, self.bounds, self.jobs = process, bounds, jobs
-        self.enter("", "")
-
-    def enter(self, what: str, stage: str) -> None:
-        """Record that the process has entered a stage."""
-        self.what, self.stage, self.since = what, stage, monotonic()
-
-    def look(self) -> None:
-        """Raise RanAway if the time of the stage is over."""
-        if self.bounds and monotonic() - self.since > self.bounds.at(self.stage):
-            raise RanAway(self.what, self.stage, seconds=self.bounds.at(self.stage))
-
-    @contextmanager
-    def no_loss(self) -> Iterator[None]:
-        """Raise LostProcess, or RanAway if there are bounds, if the connection closes."""
-        try:
-            yield
-        except (EOFError, ConnectionError):
-            if self.bounds is None:
-                raise LostProcess(self.jobs) from None
-            self.process.join(_INTERVAL)
-            full = self.process.exitcode == _NO_MEMORY
-            gigabytes = self.bounds.gigabytes if full else None
-            raise RanAway(self.what, self.stage, gigabytes=gigabytes) from None
-
-
-def _with_note(error: Exception, note: str) -> Exception:
-    error.add_note(note)
-    return error
+        started = [worker.process for worker in workers if worker.process.pid]
+        for process in started:
+            process.terminate()
+        for process in started:
+            process.join(_GRACE)
+            process.kill()
+            process.join()
+        for worker in workers:
+            worker.line.close()
 
 
 @contextmanager
-def _interrupts_held_back() -> Iterator[None]:
-    """Delay Ctrl-C until the end of the block; a process started in it never receives Ctrl-C."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+def _starting() -> Iterator[None]:
+    """Let processes start without Ctrl-C, which never reaches them, and without a user's modules.
 
-
-@contextmanager
-def _safe_path() -> Iterator[None]:
-    """Let a process started in the block find the standard library, whatever the directory holds.
-
-    Otherwise it would first import a user's file such as threading.py instead of Python's own.
+    A file such as threading.py in the current directory would hide the module of Python.
     """
-    name = "PYTHONSAFEPATH"
-    before = os.environ.get(name)
+    masks = hasattr(signal, "pthread_sigmask")
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if masks else set()
+    name, before = "PYTHONSAFEPATH", os.environ.get("PYTHONSAFEPATH")
     os.environ[name] = "1"
     try:
         yield
     finally:
-        if before is None:
-            del os.environ[name]
-        else:
+        del os.environ[name]
+        if before is not None:
             os.environ[name] = before
+        if masks:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+def _results(
+    workers: Sequence[_Worker], items: Sequence[Item], report: Report, bounds: Bounds | None
+) -> list[Result]:
+    """Distribute the items one by one; pass reports on, and raise the first failure."""
+    waiting = iter(enumerate(items))
+    busy: dict[object, _Worker] = {}
+    results: dict[int, Result] = {}
+
+    def hand_out(worker: _Worker) -> None:
+        if (following := next(waiting, None)) is not None:
+            worker.number, item = following
+            worker.enter("", "")
+            busy[worker.line] = worker
+            with suppress(ConnectionError):  # the loop below notices that it is closed
+                worker.line.send(item)
+
+    for worker in workers:
+        hand_out(worker)
+    while busy:
+        ready = wait([worker.line for worker in busy.values()], _INTERVAL)
+        for line in busy.keys() - ready:
+            busy[line].demand_in_time(bounds)
+        for line in ready:
+            worker = busy[line]
+            try:
+                kind, *told = worker.line.recv()
+            except (EOFError, ConnectionError):
+                raise worker.lost(bounds, len(workers)) from None
+            if kind == "report":
+                worker.enter(*told)
+                report(*told)
+            elif kind == "failure":
+                error, note = told
+                error.add_note(note)
+                raise error
+            else:
+                results[busy.pop(line).number] = told[0]
+                hand_out(worker)
+    return [results[number] for number in range(len(items))]
 
 
 # ------------------------------------------------------------------ in a separate process
@@ -243,21 +225,20 @@ def _work(
     Thread(target=_end_with_the_first, daemon=True).start()
     if bounds is not None:
         _bind(bounds)
-    with suppress(EOFError, ConnectionError):
-        while True:
-            _do(function, line.recv(), line)
 
-
-def _do(function: Callable[[Item, Report], Result], item: Item, line: Connection) -> None:
     def report(what: str, stage: str) -> None:
         line.send(("report", what, stage))
 
-    try:
-        line.send(("result", function(item, report)))
-    except MemoryError:
-        os._exit(_NO_MEMORY)  # the first process notices that the connection closes
-    except Exception as error:
-        line.send(("failure", _portable(error), f"in another process:\n{traceback.format_exc()}"))
+    with suppress(EOFError, ConnectionError):
+        while True:
+            item = line.recv()
+            try:
+                line.send(("result", function(item, report)))
+            except MemoryError:
+                os._exit(_NO_MEMORY)  # the first process notices that the connection closes
+            except Exception as error:
+                note = f"in another process:\n{traceback.format_exc()}"
+                line.send(("failure", _portable(error), note))
 
 
 def _bind(bounds: Bounds) -> None:

@@ -8,7 +8,6 @@ on time and memory.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any, TypeVar
 
 import click
@@ -22,7 +21,7 @@ from derive.command.errors import RanAway
 from derive.command.processes import Report, in_processes
 from derive.command.terminal import folded, status
 from derive.proof import prove
-from derive.sheet.built import Body
+from derive.sheet.built import BuiltBody
 from derive.sheet.derivation import NONE_IN_TIME, slip_series, with_closed_forms
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
@@ -38,13 +37,15 @@ _SENSES = (
 )
 
 
-def apart(function: Callable[[tuple[Any, ...], Report], Shown], name: str, *more: object) -> Shown:
+def in_limited_process(
+    function: Callable[[tuple[Any, ...], Report], Shown], name: str, *more: object
+) -> Shown:
     """Apply a function to a geometry, with limits for a file and for the series of slip zones.
 
     With limits, it runs in a separate process, in which a geometry file cannot end this one.
     """
     limited = function is slip_of or not is_in_library(name)
-    bounds = pipeline.STRANGERS if limited else None
+    bounds = pipeline.USER_FILE_LIMITS if limited else None
     with status(f"reading {name}") as update:
 
         def report(what: str, stage: str) -> None:
@@ -53,7 +54,9 @@ def apart(function: Callable[[tuple[Any, ...], Report], Shown], name: str, *more
         try:
             (shown,) = in_processes(function, [(name, *more)], report, 1, bounds)
         except RanAway as error:
-            raise replace(error, remedy=_LOWER if function is slip_of else "") from None
+            if function is slip_of:
+                error.remedy = _LOWER
+            raise
     return shown
 
 
@@ -77,7 +80,7 @@ def sheet_of(asked: tuple[str, str, float], report: Report) -> tuple[RenderableT
     return view.formulas(sheet), remark
 
 
-def page_of(asked: tuple[str, Body, float], report: Report) -> str:
+def page_of(asked: tuple[str, BuiltBody, float], report: Report) -> str:
     """The page of a body that has been built."""
     from derive.handbook.page import page
 
@@ -85,7 +88,7 @@ def page_of(asked: tuple[str, Body, float], report: Report) -> str:
     return page(_sheet_of_body(name, body, limit, report), body)
 
 
-def handbook(bodies: Sequence[Body], limit: float) -> dict[str, str]:
+def handbook(bodies: Sequence[BuiltBody], limit: float) -> dict[str, str]:
     """The pages of the library with their index, by file name."""
     from derive.handbook.page import entry, index, page
 
@@ -94,7 +97,7 @@ def handbook(bodies: Sequence[Body], limit: float) -> dict[str, str]:
     return pages | {"index.html": index([entry(sheet, body) for sheet, body in made])}
 
 
-def sheets_of(bodies: Sequence[Body], limit: float) -> list[FormulaSheet]:
+def sheets_of(bodies: Sequence[BuiltBody], limit: float) -> list[FormulaSheet]:
     """The sheets of bodies of the library, with those formulas for which the bodies have proofs."""
     with status("deriving") as update:
         return [
@@ -103,7 +106,7 @@ def sheets_of(bodies: Sequence[Body], limit: float) -> list[FormulaSheet]:
         ]
 
 
-def _sheet_of_body(name: str, body: Body, limit: float, report: Report) -> FormulaSheet:
+def _sheet_of_body(name: str, body: BuiltBody, limit: float, report: Report) -> FormulaSheet:
     from derive.handbook.page import proven
 
     return proven(with_closed_forms(_derived(name, report), limit), body)

@@ -8,7 +8,7 @@ import os
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from shutil import get_terminal_size, which
 from textwrap import fill
@@ -16,7 +16,15 @@ from threading import Timer
 
 import click
 from rich.console import Console, RenderableType
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    SpinnerColumn,
+    TextColumn,
+    TimeElapsedColumn,
+)
 
 _WIDE = 10_000
 """Width, in columns, of output that does not go to a terminal, if COLUMNS is not set: large enough
@@ -32,34 +40,8 @@ PATIENCE = 10.0
 @contextmanager
 def status(words: str) -> Iterator[Callable[[str], None]]:
     """A spinner with a caption that the yielded function changes."""
-    console = _console(stderr=True)
-    now = [words]
-    spinner = console.status(words) if console.is_terminal else None
-    with _told_after_a_while(console, now), spinner or nullcontext():
-
-        def update(words: str) -> None:
-            now[0] = words
-            if spinner is not None:
-                spinner.update(words)
-
-        yield update
-
-
-@contextmanager
-def _told_after_a_while(console: Console, now: Sequence[str]) -> Iterator[None]:
-    """Print once what is taking so long, if no spinner or bar is shown."""
-
-    def tell() -> None:
-        remark(f"Still working after {PATIENCE:g} s: {now[0]}")
-
-    timer = Timer(PATIENCE, tell)
-    timer.daemon = True
-    if not console.is_terminal:
-        timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
+    with _moving((SpinnerColumn(), _CAPTION), words, None) as update:
+        yield lambda words: update(words, 0)
 
 
 @contextmanager
@@ -68,18 +50,8 @@ def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str]
 
     A word that is not a stage says that the body is finished.
     """
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
-    console = _console(stderr=True)
-    bar = Progress(
-        *columns,
-        TimeElapsedColumn(),
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    )
-    now = ["starting"]
-    with _told_after_a_while(console, now), bar:
-        task = bar.add_task("", total=bodies * len(stages))
+    columns = (_CAPTION, BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with _moving(columns, "starting", bodies * len(stages)) as update:
         passed: dict[str, int] = {}
         at_work: dict[str, str] = {}
 
@@ -89,11 +61,38 @@ def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str]
             if stage in stages:
                 at_work[body] = stage
             *others, last = at_work.items() or [(body, "finishing")]
-            words = ": ".join(last) + (f", {len(others)} more in progress" if others else "")
-            now[0] = words
-            bar.update(task, description=words, completed=sum(passed.values()))
+            more = f", {len(others)} more in progress" if others else ""
+            update(": ".join(last) + more, sum(passed.values()))
 
         yield step
+
+
+_CAPTION = TextColumn("{task.description}")
+
+
+@contextmanager
+def _moving(
+    columns: Sequence[ProgressColumn], words: str, total: int | None
+) -> Iterator[Callable[[str, int], None]]:
+    """A moving line on a terminal; elsewhere, one line says after a while what takes so long."""
+    console = _console(stderr=True)
+    now = [words]
+    timer = Timer(PATIENCE, lambda: remark(f"Still working after {PATIENCE:g} s: {now[0]}"))
+    timer.daemon = True
+    if not console.is_terminal:
+        timer.start()
+    bar = Progress(*columns, console=console, transient=True, disable=not console.is_terminal)
+    try:
+        with bar:
+            task = bar.add_task(words, total=total)
+
+            def update(words: str, completed: int) -> None:
+                now[0] = words
+                bar.update(task, description=words, completed=completed)
+
+            yield update
+    finally:
+        timer.cancel()
 
 
 def _console(stderr: bool = False, columns: str = "") -> Console:

@@ -14,7 +14,7 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from derive.proof.verdict import Verdict
-from derive.sheet.built import Body, by_form
+from derive.sheet.built import BuiltBody, by_form
 
 if TYPE_CHECKING:
     from derive.check.verdict import Finding
@@ -55,7 +55,7 @@ def _listed(name: str, g: str, closed: str, numerical: str, title: str) -> Group
     return Group(Text.assemble((name, "bold cyan"), f"  {title}"), rest, "")
 
 
-def summary(bodies: Iterable[Body]) -> Table:
+def summary(bodies: Iterable[BuiltBody]) -> Table:
     """A table of the bodies built: closed or numerical parts, proofs by kind, and time."""
     table = Table(
         Column("geometry", no_wrap=True),

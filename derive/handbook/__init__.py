@@ -4,7 +4,7 @@
     -------   --------------------------------   -----------------------------------------------
     picture   curves                             an SVG picture
     curves    a sheet, the text of its module    g(x), and the pressure of some contacts
-    page      a sheet, its Body                  one page; the index of several pages
+    page      a sheet, its BuiltBody                  one page; the index of several pages
 
 Only the commands import this package, and docs/site, whose pages show the same figures in the same
 style, templates/figures.css.  A page contains its own style, pictures and formulas, so that nothing

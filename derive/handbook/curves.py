@@ -17,7 +17,7 @@ from derive.codegen.function import example_of
 from derive.codegen.trial import imported
 from derive.handbook.picture import Line, sketch, svg
 from derive.proof.points import holds
-from derive.sheet.built import Body
+from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, a, c, x
 
@@ -56,7 +56,7 @@ class Pictures(NamedTuple):
     has_corner: bool
 
 
-def pictures(sheet: FormulaSheet, body: Body) -> Pictures:
+def pictures(sheet: FormulaSheet, body: BuiltBody) -> Pictures:
     """The pictures of one body."""
     half, law = drawn_at(sheet)
     corners = _corners(sheet, law)

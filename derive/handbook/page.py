@@ -14,7 +14,7 @@ from pygments.lexers import PythonLexer
 from derive.command.errors import NotProven
 from derive.handbook.curves import pictures, profile
 from derive.proof.verdict import Verdict
-from derive.sheet.built import Body
+from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.mathml import mathml
 from derive.sheet.notation import latex_of
@@ -50,7 +50,7 @@ class Entry(NamedTuple):
     formulas: int
 
 
-def proven(sheet: FormulaSheet, body: Body) -> FormulaSheet:
+def proven(sheet: FormulaSheet, body: BuiltBody) -> FormulaSheet:
     """The sheet without the closed forms for which its body has no proof.
 
     The search for closed forms has a time limit, so it may now find forms that it did not find when
@@ -62,10 +62,10 @@ def proven(sheet: FormulaSheet, body: Body) -> FormulaSheet:
         return sheet
     kept = {name: formula for name, formula in sheet.items() if name not in unproven}
     remark = f"{sheet.remark}  Not proven, and therefore not shown: {', '.join(unproven)}."
-    return replace(sheet, formulas=kept, remark=body.struck or remark)
+    return replace(sheet, formulas=kept, remark=body.time_limit_note or remark)
 
 
-def page(sheet: FormulaSheet, body: Body, index: bool = False) -> str:
+def page(sheet: FormulaSheet, body: BuiltBody, index: bool = False) -> str:
     """The page of one body.
 
     index: whether the page belongs to a set with an index, to which it links
@@ -97,7 +97,7 @@ def page(sheet: FormulaSheet, body: Body, index: bool = False) -> str:
     )
 
 
-def figures(sheet: FormulaSheet, body: Body) -> Markup:
+def figures(sheet: FormulaSheet, body: BuiltBody) -> Markup:
     """The profile and the pressure of one body, with captions; figures.css contains the style."""
     drawn = pictures(sheet, body)._asdict()
     return Markup(_templates().get_template("figures.html").render(drawn))
@@ -108,7 +108,7 @@ def index(entries: Sequence[Entry]) -> str:
     return _templates().get_template("index.html").render(entries=entries, style=_style())
 
 
-def entry(sheet: FormulaSheet, body: Body) -> Entry:
+def entry(sheet: FormulaSheet, body: BuiltBody) -> Entry:
     """The entry of a body in the index."""
     geometry = sheet.geometry
     return Entry(

@@ -12,8 +12,8 @@
     improper                                principal values, and integrals to infinity
     relation                                the relation between the two sides of an equation
     units                                   units and dimensions of expressions
-    lengths    SymPy expression             the unit of each parameter, because g is a length
-    dimensions equation, known units        the term whose units do not fit
+                                            the term of an equation whose units do not fit;
+                                            the unit of each parameter, because g is a length
     displays   LaTeX file                   its displays, numbered as LaTeX numbers them
     statements display                      its equations, each with its condition
     spellings  equation in LaTeX            its symbols, and proposals for their meanings

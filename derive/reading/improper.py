@@ -40,6 +40,19 @@ class ToInfinity(Function):
 IMPROPER = (PrincipalValue, ToInfinity)
 
 
+def ordinary(expr: Expr) -> Expr:
+    """Write principal values and integrals to infinity as integrals, for units and symbols."""
+    return expr.replace(lambda node: isinstance(node, IMPROPER), as_integral)
+
+
+def as_integral(node: Expr) -> Integral:
+    """The same as an integral of SymPy; the end of one to infinity is its beginning."""
+    if isinstance(node, Integral):
+        return node
+    inside, along, low, *high = node.args
+    return Integral(inside, (along, low, *(high or [low])))
+
+
 def proper(expr: Any) -> Any:
     """Rewrite all integrals without poles and with finite ends; raises NoPole."""
     return expr.replace(lambda n: isinstance(n, IMPROPER), _proper)

@@ -1,43 +1,30 @@
-"""Units and dimensions: every formula is checked as soon as it is made.
+"""Units: read, checked in every formula, and found where they are not stated.
 
 All quantities of the half-plane are products of powers of a pressure and a length.  A dimension is
-therefore a pair of exponents.  An exponent may contain a parameter, as in C |x|**n.
+therefore a pair of exponents.  An exponent may contain a parameter, as in C |x|**n, and unknowns.
+
+    parse_unit        the text of a unit -> its dimension
+    dimension_of      a formula and the dimensions of its symbols -> its dimension
+    units_of_profile  g(x) -> the units of its parameters that make it a length
+    Units             printed equations, one after another -> the term that does not fit
 """
 
 import ast
 from collections.abc import Iterable, Mapping
+from copy import copy
 from dataclasses import dataclass
 from functools import reduce
 
-from sympy import (
-    Abs,
-    Add,
-    Basic,
-    Expr,
-    Function,
-    Heaviside,
-    Integer,
-    Integral,
-    Max,
-    Min,
-    Mul,
-    Piecewise,
-    Pow,
-    Rational,
-    S,
-    Symbol,
-    UnevaluatedExpr,
-    atan2,
-    hyper,
-    sign,
-    simplify,
-    sympify,
-)
+import sympy
+from sympy import Dummy, Expr, Integer, Integral, Pow, Rational, S, Symbol, expand
+from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from derive.command.errors import BadText, BadUnit, DimensionMismatch
+from derive.command.errors import BadText, BadUnit, DimensionMismatch, OpenUnits
+from derive.reading.improper import IMPROPER, as_integral
 from derive.reading.tree import parse
 from derive.reading.words import FUNCTIONS, Words
+from derive.symbols import x
 
 
 @dataclass(frozen=True)
@@ -53,12 +40,15 @@ class Dimension:
     def __pow__(self, exponent: Expr) -> "Dimension":
         return Dimension(self.pressure * exponent, self.length * exponent)
 
+    @property
+    def is_known(self) -> bool:
+        """Whether neither exponent contains an unknown."""
+        return not (self.pressure.has(Dummy) or self.length.has(Dummy))
+
     def agrees(self, other: "Dimension") -> bool:
         """Whether both are the same dimension."""
-        return bool(
-            simplify(self.pressure - other.pressure) == 0
-            and simplify(self.length - other.length) == 0
-        )
+        gaps = (self.pressure - other.pressure, self.length - other.length)
+        return all(expand(gap).equals(0) is not False for gap in gaps)
 
     def __str__(self) -> str:
         factors = [
@@ -71,6 +61,9 @@ class Dimension:
 
 def _in_parentheses(power: Expr) -> str:
     return str(power) if power.is_Integer and power > 0 else f"({power})"
+
+
+# ------------------------------------------------------------------ units as text
 
 
 NUMBER = Dimension()
@@ -89,13 +82,13 @@ def parse_unit(text: str) -> Dimension:
     Raises BadUnit for anything else.
     """
     if not isinstance(text, str):
-        raise BadUnit(text, "it is not a string")
+        raise BadUnit(repr(text), "it is not a string")
     if text.strip() in ("-", "1", ""):
         return NUMBER
     try:
         return _unit(parse(text, _WORDS).root, text)
     except BadText:
-        raise BadUnit(text, "it is not a product of powers") from None
+        raise BadUnit(repr(text), "it is not a product of powers") from None
 
 
 def _unit(node: ast.expr, text: str) -> Dimension:
@@ -112,7 +105,7 @@ def _unit(node: ast.expr, text: str) -> Dimension:
             return _unit(left, text) ** _exponent(right, text)
         case ast.Call(func=ast.Name(id="sqrt"), args=[inside], keywords=[]):
             return _unit(inside, text) ** Rational(1, 2)
-    raise BadUnit(text, f"{ast.unparse(node)!r} is not a known unit")
+    raise BadUnit(repr(text), f"{ast.unparse(node)!r} is not a known unit")
 
 
 def _exponent(node: ast.expr, text: str) -> Expr:
@@ -134,7 +127,198 @@ def _exponent(node: ast.expr, text: str) -> Expr:
                     return first * second
                 case ast.Div() if second != 0:
                     return first / second
-    raise BadUnit(text, f"{ast.unparse(node)!r} is not an exponent")
+    raise BadUnit(repr(text), f"{ast.unparse(node)!r} is not an exponent")
+
+
+# ------------------------------------------------------------------ the dimension of a formula
+
+Call = tuple[tuple[Dimension, ...], Dimension]
+"""The units of the arguments of a formula, and the unit of its value."""
+
+
+@dataclass
+class _Misfit(Exception):
+    """Two units that should be equal differ.
+
+    term    what has the unit `found`
+    beside  what has the unit `wanted`; empty if the term must be a number
+    where   the place of the term
+    """
+
+    found: Dimension
+    wanted: Dimension
+    term: object
+    beside: str
+    where: str
+
+
+class Units:
+    """The units of symbols: those that are known, and those that equations have shown.
+
+    A symbol whose unit is unknown may have any unit, but the same one everywhere: each equation
+    that is consistent adds to what is known about it.
+
+    known    units of symbols
+    meaning  meanings of symbols, which are taken into account when a symbol first occurs
+    calls    units of the arguments and of the values of formulas that are called
+    """
+
+    def __init__(
+        self,
+        known: Mapping[Symbol, Dimension],
+        meaning: Mapping[Symbol, Expr] | None = None,
+        calls: Mapping[str, Call] | None = None,
+    ) -> None:
+        # Their changes are made in new mappings, so that a copy of this object is a trial.
+        self.known, self.meaning, self.calls = known, meaning or {}, calls or {}
+        self.solved: Mapping[Dummy, Expr] = {}
+
+    def mismatch(self, left: Expr, right: Expr) -> str:
+        """Describe the units that do not fit in an equation; empty if they may all fit."""
+        trial = copy(self)
+        try:
+            trial.common((left, right))
+        except _Misfit as misfit:
+            return trial._told(misfit)
+        vars(self).update(vars(trial))
+        return ""
+
+    def unit_of(self, symbol: Symbol) -> str:
+        """Return the unit of a symbol as text, or an empty string if it is not known."""
+        trial = copy(self)
+        try:
+            unit = trial._shown(trial._of_symbol(symbol))
+        except _Misfit:
+            return ""
+        return "" if "?" in unit else unit
+
+    def of(self, expr: Expr) -> Dimension | None:
+        """The dimension of an expression; None for zero, which has every dimension."""
+        if expr == 0:
+            return None
+        if isinstance(expr, Symbol):
+            return self._of_symbol(expr)
+        if expr.is_number:
+            return NUMBER
+        if isinstance(expr, sympy.Mul):
+            return reduce(Dimension.__mul__, (self.of(factor) or NUMBER for factor in expr.args))
+        if isinstance(expr, Pow):
+            return self._of_power(expr)
+        if isinstance(expr, sympy.Add | sympy.Max | sympy.Min) or getattr(
+            expr, "of_one_dimension", False
+        ):
+            return self.common(expr.args, expr)
+        if isinstance(expr, sympy.Abs | sympy.Limit | sympy.UnevaluatedExpr):
+            return self.of(expr.args[0])
+        if isinstance(expr, sympy.Piecewise):
+            for relation in (r for _, condition in expr.args for r in condition.atoms(Relational)):
+                self.common(relation.args, relation)
+            return self.common([value for value, _ in expr.args], expr)
+        if isinstance(expr, (Integral, *IMPROPER)):
+            return self._of_integral(as_integral(expr))
+        if isinstance(expr, sympy.Derivative):
+            below = [self._of_symbol(along) ** -times for along, times in expr.variable_count]
+            return reduce(Dimension.__mul__, below, self.of(expr.expr) or NUMBER)
+        if isinstance(expr, AppliedUndef):
+            return self._of_call(expr)
+        if isinstance(expr, sympy.sign | sympy.Heaviside):
+            self.of(expr.args[0])
+        elif isinstance(expr, sympy.atan2) or getattr(expr, "of_a_quotient", False):
+            self.common(expr.args, expr)
+        else:
+            is_hyper = isinstance(expr, sympy.hyper)
+            for each in (*expr.ap, *expr.bq, expr.argument) if is_hyper else expr.args:
+                self._demand_number(each, f"the argument of {expr.func}")
+        return NUMBER
+
+    def common(self, terms: Iterable[Expr], whole: sympy.Basic | None = None) -> Dimension | None:
+        """The dimension that all terms of an expression have."""
+        common, first = None, S.Zero
+        inside = "" if whole is None else f" in {whole}"
+        for term in terms:
+            found = self.of(term)
+            if common is None:
+                common, first = found, term
+            elif found is not None:
+                self.equate(found, common, term, f"{first}{inside}", f"{term}{inside}")
+        return common
+
+    def equate(
+        self, found: Dimension, wanted: Dimension, term: object, beside: str = "", where: str = ""
+    ) -> None:
+        """Solve for an unknown power, so that two dimensions agree; raises _Misfit."""
+        for gap in (found.pressure - wanted.pressure, found.length - wanted.length):
+            left = expand(expand(gap).xreplace(self.solved))
+            if unknown := sorted(left.atoms(Dummy), key=lambda power: power.dummy_index):
+                numeric = [power for power in unknown if left.coeff(power).is_number]
+                first = (numeric or unknown)[0]
+                value = expand(-left.xreplace({first: S.Zero}) / left.coeff(first))
+                table = {first: value}
+                self.solved = {d: expand(v.xreplace(table)) for d, v in self.solved.items()} | table
+            elif left != 0 and left.equals(0) is False:
+                raise _Misfit(found, wanted, term, beside, where)
+
+    def _demand_number(self, expr: Expr, where: str) -> None:
+        if (found := self.of(expr)) is not None:
+            self.equate(found, NUMBER, expr, where=where)
+
+    def _of_power(self, expr: Pow) -> Dimension:
+        self._demand_number(expr.exp, f"the exponent of {expr}")
+        base = self.of(expr.base) or NUMBER
+        if expr.exp.has(x) and not base.is_known:
+            self.equate(base, NUMBER, expr.base, where=f"the base of {expr}")
+            return NUMBER
+        return base**expr.exp
+
+    def _of_symbol(self, symbol: Symbol) -> Dimension:
+        own = None
+        if symbol in self.meaning:
+            meaning = self.meaning[symbol]
+            self.meaning = {s: other for s, other in self.meaning.items() if s != symbol}
+            own = self.of(meaning)
+        if symbol not in self.known:
+            unknown = Dimension(Dummy(symbol.name), Dummy(symbol.name))
+            self.known = {**self.known, symbol: own or unknown}
+        elif own is not None:
+            what = f"the meaning {meaning} of {symbol}"
+            self.equate(own, self.known[symbol], what, f"{symbol} as declared")
+        return self.known[symbol]
+
+    def _of_call(self, expr: Expr) -> Dimension:
+        takes, value = self.calls[expr.func.__name__]
+        for argument, wanted in zip(expr.args, takes, strict=True):
+            if (found := self.of(argument)) is not None:
+                self.equate(found, wanted, argument, f"this argument of {expr.func}")
+        return value
+
+    def _of_integral(self, expr: Integral) -> Dimension:
+        total, outside = NUMBER, self.known
+        for variable, *ends in reversed(expr.limits):
+            along = self.common(ends, expr)
+            if along is None:  # both ends are zero, or zero and infinity
+                along = self._of_symbol(variable) if ends else NUMBER
+            self.known = {**self.known, variable: along}
+            total = total * along
+        total = total * (self.of(expr.function) or NUMBER)
+        bound = {variable for variable, *_ in expr.limits}
+        inside = {symbol: unit for symbol, unit in self.known.items() if symbol not in bound}
+        self.known = {**outside, **inside}
+        return total
+
+    def _told(self, misfit: _Misfit) -> str:
+        """A misfit in words, with the units as far as they are known."""
+        found, wanted = self._shown(misfit.found), self._shown(misfit.wanted)
+        if not misfit.beside:
+            return f"{misfit.term} is in {found}, but {misfit.where} must be a number"
+        if "?" in found + wanted:
+            ratio = self._shown(misfit.found * misfit.wanted**S.NegativeOne)
+            return f"the unit of {misfit.term} is {ratio} times that of {misfit.beside}"
+        return f"{misfit.term} is in {found}, but {misfit.beside} is in {wanted}"
+
+    def _shown(self, unit: Dimension) -> str:
+        powers = [expand(power).xreplace(self.solved) for power in (unit.pressure, unit.length)]
+        shown = Dimension(*powers)
+        return str(shown) if shown.is_known else "?"
 
 
 def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimension | None:
@@ -143,69 +327,79 @@ def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimensio
     Raises DimensionMismatch if the terms of a sum differ, or if the argument of a function or an
     exponent is not a pure number.
     """
-    expr = sympify(expr, strict=True)
-    if expr == 0:
-        return None
-    if isinstance(expr, Symbol):
-        return dimensions[expr]
-    if expr.is_number:
-        return NUMBER
-    if isinstance(expr, Mul):
-        factors = [dimension_of(factor, dimensions) or NUMBER for factor in expr.args]
-        return reduce(Dimension.__mul__, factors)
-    if isinstance(expr, Pow):
-        _demand(expr.exp, NUMBER, f"the exponent of {expr}", dimensions)
-        base = dimension_of(expr.base, dimensions) or NUMBER
-        return base**expr.exp
-    if isinstance(expr, Add | Max | Min) or getattr(expr, "of_one_dimension", False):
-        return _common(expr.args, expr, dimensions)
-    if isinstance(expr, Abs | UnevaluatedExpr):
-        return dimension_of(expr.args[0], dimensions)
-    if getattr(expr, "of_a_quotient", False):
-        _common(expr.args, expr, dimensions)
-        return NUMBER
-    if isinstance(expr, atan2 | sign | Heaviside):
-        _common(expr.args[:2] if isinstance(expr, atan2) else expr.args[:1], expr, dimensions)
-        return NUMBER
-    if isinstance(expr, Piecewise):
-        for _, condition in expr.args:
-            for relation in condition.atoms(Relational):
-                _common((relation.lhs, relation.rhs), relation, dimensions)
-        return _common([value for value, _ in expr.args], expr, dimensions)
-    if isinstance(expr, Integral):
-        integrand, (variable, *ends) = expr.function, expr.limits[0]
-        along = _common(ends, expr, dimensions) or NUMBER
-        inside = dimension_of(integrand, {**dimensions, variable: along}) or NUMBER
-        return inside * along
-    if isinstance(expr, Function):
-        arguments = (*expr.ap, *expr.bq, expr.argument) if isinstance(expr, hyper) else expr.args
-        for argument in arguments:
-            _demand(argument, NUMBER, f"the argument {argument} of {expr.func}", dimensions)
-        return NUMBER
-    raise DimensionMismatch(str(expr), "unknown", "known")
-
-
-def _common(
-    terms: Iterable[Expr], whole: Basic, dimensions: Mapping[Symbol, Dimension]
-) -> Dimension | None:
-    found: Dimension | None = None
-    for term in terms:
-        dimension = dimension_of(term, dimensions)
-        if found is None:
-            found = dimension
-        elif dimension is not None and not found.agrees(dimension):
-            raise DimensionMismatch(f"{term} in {whole}", str(dimension), str(found))
-    return found
-
-
-def _demand(
-    expr: Expr, wanted: Dimension, where: str, dimensions: Mapping[Symbol, Dimension]
-) -> None:
-    found = dimension_of(expr, dimensions)
-    if found is not None and not found.agrees(wanted):
-        raise DimensionMismatch(where, str(found), str(wanted))
+    expr = sympy.sympify(expr, strict=True)
+    assert expr.free_symbols <= dimensions.keys(), expr
+    try:
+        return Units(dimensions).of(expr)
+    except _Misfit as misfit:
+        argument = f"the argument {misfit.term} of"
+        where = misfit.where.replace("the argument of", argument, 1)
+        raise DimensionMismatch(where, str(misfit.found), str(misfit.wanted)) from None
 
 
 def check(expr: Expr, unit: str, where: str, dimensions: Mapping[Symbol, Dimension]) -> None:
     """Raise DimensionMismatch unless `expr` has the dimension of `unit`."""
-    _demand(expr, parse_unit(unit), where, dimensions)
+    found, wanted = dimension_of(expr, dimensions), parse_unit(unit)
+    if found is not None and not found.agrees(wanted):
+        raise DimensionMismatch(where, str(found), str(wanted))
+
+
+# ------------------------------------------------------------------ the parameters of g(x)
+
+
+def units_of_profile(g: Expr, given: Mapping[str, str]) -> dict[str, str]:
+    """A unit for every parameter of g: the units that are given, and those that make g a length.
+
+    Each of these is a power of a metre.  Parameters whose units are not determined are assumed to
+    be lengths, if that is consistent.  If no units are consistent, the result is refused later,
+    when the dimensions are checked.
+
+    Raises BadUnit, and OpenUnits if the units are not determined and cannot all be lengths.
+
+    >>> R, phi = Symbol("R"), Symbol("phi")
+    >>> units_of_profile(x**2 / (2 * R) + phi * abs(x), {})
+    {'R': 'm', 'phi': 'rad'}
+    """
+    parameters = sorted(g.free_symbols - {x}, key=str)
+    powers = {p: parse_unit(given[p.name]).length for p in parameters if p.name in given}
+    unknown = {p: Dummy(p.name) for p in parameters if p not in powers}
+    length = Dimension(length=S.One)
+    units = Units(
+        {p: Dimension(length=power) for p, power in ({x: S.One} | powers | unknown).items()}
+    )
+    try:
+        units.equate(units.of(g) or length, length, g)
+    except _Misfit:
+        units.solved = dict.fromkeys(unknown.values(), S.One)
+    solved = {p: units.solved.get(power, power) for p, power in unknown.items()}
+    open_ = [p for p, power in solved.items() if power.has(Dummy)]
+    lengths = dict.fromkeys(unknown.values(), S.One)
+    if any(solved[p].xreplace(lengths) != 1 for p in open_):
+        free = [f"--unit {p.name}=m" for p, power in unknown.items() if solved[p] == power]
+        raise OpenUnits(tuple(p.name for p in open_), " ".join(free))
+    solved |= dict.fromkeys(open_, S.One)
+    return {p.name: given.get(p.name) or _power_of_metre(p, solved[p], g) for p in parameters}
+
+
+def _power_of_metre(parameter: Symbol, power: Expr, g: Expr) -> str:
+    """m**power as text; the unit of a number is rad if it is a slope or an angle, otherwise -."""
+    power = power.factor()
+    if power == 0:
+        return "rad" if _is_angle(parameter, g) else "-"
+    if power.is_Rational and power < 0:
+        return f"1/{_power_of_metre(parameter, -power, g)}"
+    if power == 1:
+        return "m"
+    return f"m**{power}" if power.is_Integer else f"m**({power})"
+
+
+def _is_angle(parameter: Symbol, g: Expr) -> bool:
+    """Whether a parameter is a plain factor, or the argument of a trigonometric function.
+
+    A parameter that occurs in an exponent is not an angle.
+    """
+    if any(node.exp.has(parameter) for node in g.atoms(Pow, sympy.exp)):
+        return False
+    return any(
+        parameter in node.args for node in g.atoms(sympy.Mul, sympy.sin, sympy.cos, sympy.tan)
+    )

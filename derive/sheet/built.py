@@ -18,7 +18,7 @@ _PARTS = {
 
 
 @dataclass(frozen=True)
-class Body:
+class BuiltBody:
     """The result of building one body.
 
     name       name of the body and of its module
@@ -29,7 +29,7 @@ class Body:
     numerical  parts of the contact law that are computed numerically
     verdicts   verdict on every formula
     proofs     how each formula was proven, in words
-    struck     message if the search for closed forms reached its time limit, otherwise empty
+    time_limit_note  message if the search for closed forms reached its time limit, otherwise empty
     kept       whether the body was read from the cache
     """
 
@@ -41,7 +41,7 @@ class Body:
     numerical: tuple[str, ...]
     verdicts: tuple[tuple[str, Verdict], ...]
     proofs: tuple[tuple[str, str], ...] = field(compare=False)
-    struck: str = ""
+    time_limit_note: str = ""
     kept: bool = field(default=False, compare=False)
 
     def formulas(self, verdict: Verdict) -> tuple[str, ...]:

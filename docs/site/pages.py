@@ -22,7 +22,7 @@ from derive.command.showing import sheets_of
 from derive.handbook.curves import profile
 from derive.handbook.page import figures
 from derive.pipeline import build_all
-from derive.sheet.built import Body
+from derive.sheet.built import BuiltBody
 from derive.sheet.derivation import derive_sheet
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import latex_of
@@ -147,7 +147,7 @@ def handbook(sheets: Iterable[FormulaSheet]) -> Iterator[str]:
     yield f"\n```{{toctree}}\n:hidden:\n\n{pages}\n```\n"
 
 
-def formulas(sheet: FormulaSheet, body: Body) -> Iterator[str]:
+def formulas(sheet: FormulaSheet, body: BuiltBody) -> Iterator[str]:
     """Yield the page of one body: all formulas with meaning, condition, source and proof."""
     geometry, proofs = sheet.geometry, dict(body.proofs)
     yield f"# {_plain(geometry.name)}\n"

@@ -1,11 +1,9 @@
 """A package is replaced whole or not at all, and nothing but a package of ours is replaced."""
 
 import errno
-import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
@@ -15,8 +13,7 @@ import pytest
 from derive.codegen.mark import MARK
 from derive.codegen.publish import RUNTIME, differences, modules_in, package_files, publish
 from derive.command.errors import BadOutput
-from derive.command.folder import demand_replaceable, in_use
-from derive.command.manifest import MANIFEST
+from derive.command.folder import MANIFEST, demand_replaceable
 from derive.pipeline import GENERATED
 
 OLD = package_files({"cylinder": f"{MARK}\nold = 1\n", "wedge": f"{MARK}\nwedge = 1\n"})
@@ -203,13 +200,6 @@ def failing(
     monkeypatch.setattr(Path, method, Failure(method, error, after, times))
 
 
-@pytest.fixture
-def in_two_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A system that cannot exchange two directories in one step."""
-    monkeypatch.setattr("derive.command.folder._exchanged", lambda *_: False)
-
-
-@pytest.mark.usefixtures("in_two_steps")
 @pytest.mark.parametrize(
     ("error", "method", "after"),
     [
@@ -232,39 +222,6 @@ def test_a_failure_or_ctrl_c_in_the_middle_leaves_the_old_package(
     assert [p.name for p in package.parent.iterdir()] == ["package"]
 
 
-KILLED = """
-import os, signal, sys
-from pathlib import Path
-from derive.command import folder
-from derive.codegen.publish import publish
-from tests.codegen.test_publish import NEW
-real = folder._put_in_place
-def killed(fresh, place, old):
-    Path.replace = lambda *_: os.kill(os.getpid(), signal.SIGKILL)  # the first step of two
-    if sys.argv[2] == "after":
-        real(fresh, place, old)
-    os.kill(os.getpid(), signal.SIGKILL)
-folder._put_in_place = killed
-publish(NEW, Path(sys.argv[1]))
-"""
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere it takes two steps")
-@pytest.mark.parametrize(("moment", "left"), [("before", OLD), ("after", NEW)])
-def test_a_package_is_in_place_at_every_moment(
-    package: Path, moment: str, left: dict[str, str]
-) -> None:
-    """A kill leaves the old one or the new one, and a next run goes on from there."""
-    ended = subprocess.run(
-        [sys.executable, "-c", KILLED, str(package), moment], cwd=Path(__file__).parents[2]
-    )
-    assert ended.returncode == -signal.SIGKILL
-    assert contents(package) == as_bytes(left)
-    publish(OLD, package)
-    assert contents(package) == as_bytes(OLD)
-
-
-@pytest.mark.usefixtures("in_two_steps")
 def test_an_old_package_that_cannot_be_put_back_is_not_deleted(
     package: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -277,37 +234,38 @@ def test_an_old_package_that_cannot_be_put_back_is_not_deleted(
     assert as_bytes(OLD)["cylinder.py"] in held
 
 
-def leftover(package: Path, name: str = ".package-597qa82p", age: float = 60) -> Path:
-    """The hidden directory of a run that was killed while it wrote."""
-    left = package.parent / name
-    (left / "fresh" / "runtime").mkdir(parents=True)
-    for name in (MANIFEST, "cylinder.py"):
-        (left / "fresh" / name).write_bytes(as_bytes(OLD)[name])
-    (left / "fresh" / "wedge.py").touch()  # it was cut short
-    then = time.time() - age
-    os.utime(left, (then, then))
-    return left
+ENDED = """
+import os, signal, sys
+from pathlib import Path
+from derive.command.processes import end
+from derive.command import folder
+from tests.codegen.test_publish import NEW
+signal.signal(signal.SIGTERM, end)
+signal.signal(signal.SIGINT, signal.default_int_handler)
+for name in ("mkdtemp", "rmtree"):
+    home = folder.tempfile if name == "mkdtemp" else folder.shutil
+    def ended(*given, real=getattr(home, name), name=name, **more):
+        done = real(*given, **more)
+        if sys.argv[2] == name:
+            os.kill(os.getpid(), int(sys.argv[3]))
+        return done
+    setattr(home, name, ended)
+folder.replace_folder(NEW, Path(sys.argv[1]), ValueError)
+"""
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no locks of directories")
-def test_what_a_killed_run_left_is_removed_by_the_next(package: Path) -> None:
-    """Not what has another name, is young, holds another file, or is used by another run."""
-    left = leftover(package)
-    names = (".other-597qa82p", ".package-1", "package-597qa82p", ".package")
-    others = [*(leftover(package, name) for name in names)]
-    others += [
-        leftover(package, ".package-12345678", age=0),
-        leftover(package, ".package-abcdefgh"),
-    ]
-    (others[-1] / "fresh" / "notes.txt").write_text("mine")
-    with in_use(left) as locked:
-        assert locked
-        publish(NEW, package)
-    assert left.exists()
-    publish(NEW, package)
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("moment", ["mkdtemp", "rmtree"])
+def test_a_signal_waits_until_nothing_hidden_is_left(package: Path, moment: str, kind: int) -> None:
+    ended = subprocess.run(
+        [sys.executable, "-c", ENDED, str(package), moment, str(int(kind))],
+        cwd=Path(__file__).parents[2],
+        capture_output=True,
+    )
+    assert ended.returncode in (-kind, 128 + kind, 1), ended.stderr
     assert contents(package) == as_bytes(NEW)
-    assert not left.exists() and all(other.exists() for other in others)
-    assert (others[-1] / "fresh" / "notes.txt").read_text() == "mine"
+    assert [path.name for path in package.parent.iterdir()] == ["package"]
 
 
 # ------------------------------------------------------------------ differences

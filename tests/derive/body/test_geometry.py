@@ -18,7 +18,7 @@ phi = parameter("phi", "slope", unit="rad")
 def test_a_name_of_the_theory_is_refused(name: str) -> None:
     with pytest.raises(BadName) as caught:
         parameter(name, "something")
-    assert caught.value == BadName("parameter", name, "is reserved by the theory")
+    assert caught.value.message == BadName("parameter", name, "is reserved by the theory").message
     assert "choose another" in caught.value.message
 
 

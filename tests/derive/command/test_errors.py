@@ -1,51 +1,46 @@
-"""A mistake is told in another process as it was told in its own."""
+"""A mistake says its facts, and is told in another process as it was told in its own."""
 
-import dataclasses
 import pickle
 
 import pytest
 
 from derive.command import errors
-from derive.command.errors import BadUnit, UserError
+from derive.command.errors import BadOutput, BadUnit, DimensionMismatch, UnknownGeometry, UserError
 
-FACTS = {
-    "str": "some 'text', α",
-    "int": 3,
-    "float": 2.5,
-    "float | None": 2.5,
-    "tuple[str, ...]": ("hertz", "wedge"),
-    "object": object(),
-}
-
-
-def example(kind: type[UserError]) -> UserError:
-    """One mistake, made by the names of its facts."""
-    return kind(**{fact.name: FACTS[annotation(fact)] for fact in dataclasses.fields(kind)})
-
-
-def annotation(fact: "dataclasses.Field[object]") -> str:
-    return fact.type.__name__ if isinstance(fact.type, type) else str(fact.type)
-
-
+KINDS = [k for k in vars(errors).values() if isinstance(k, type) and issubclass(k, UserError)]
 MISTAKES = [
-    example(kind)
-    for kind in vars(errors).values()
-    if dataclasses.is_dataclass(kind) and issubclass(kind, UserError)
+    kind(**{name: 3 if name == "column" else f"some '{name}', α" for name in kind.facts})
+    for kind in KINDS
+    if kind is not UserError
 ]
 
 
-def there_and_back(error: UserError) -> UserError:
-    return pickle.loads(pickle.dumps(error))
-
-
 @pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: type(mistake).__name__)
-def test_a_mistake_travels_with_its_message(mistake: UserError) -> None:
-    arrived = there_and_back(mistake)
+def test_a_mistake_tells_its_facts_and_travels_with_them(mistake: UserError) -> None:
+    mistake.remedy = "changed"  # as what knows more about the mistake may do
+    for name in mistake.facts:
+        assert name in mistake.message or name in ("column", "remedy"), name
+    arrived = pickle.loads(pickle.dumps(mistake))
     assert type(arrived) is type(mistake)
     assert arrived.message == str(arrived) == mistake.message
 
 
-def test_what_cannot_travel_is_told_by_how_it_is_shown() -> None:
-    """A function without a name in a module that nobody can import."""
-    mistake = BadUnit(lambda: 3, "is no text")
-    assert there_and_back(mistake).message == mistake.message
+def test_facts_are_given_in_order_or_by_name_and_may_have_a_default() -> None:
+    mistake = DimensionMismatch("g", expected="m", found="m**2")
+    assert (mistake.where, mistake.found) == ("g", "m**2")
+    assert mistake.message == (
+        "the dimension of g is m**2, but must be m: check the units of the parameters and the "
+        "powers of x"
+    )
+    assert "contains hertz, wedge:" in UnknownGeometry("sphere", ("hertz", "wedge")).message
+    for facts in ({"given": "kg"}, {"given": "kg", "why": "", "colour": "red"}):
+        with pytest.raises(TypeError):
+            BadUnit(**facts)
+
+
+def test_a_full_disk_has_a_remedy_of_its_own() -> None:
+    told = BadOutput("made", "cannot be replaced (No space left on device)").message
+    assert told == (
+        "made cannot be replaced (No space left on device); the disk is full: free some space, "
+        "then run the command again"
+    )

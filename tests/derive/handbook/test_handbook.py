@@ -18,14 +18,14 @@ import derive.command.processes
 import derive.proof.prove
 from derive import Geometry, derive_sheet, parameter, x
 from derive.command.errors import BadPage
-from derive.command.manifest import MANIFEST
-from derive.command.shelf import put_page, put_pages
+from derive.command.files import put_page
+from derive.command.folder import MANIFEST, put_pages
 from derive.handbook.curves import OWN, drawn_at, pictures
 from derive.handbook.page import entry, index, page, proven
 from derive.handbook.picture import TOP, Line, svg
 from derive.pipeline import GENERATED
 from derive.proof.verdict import Verdict
-from derive.sheet.built import Body
+from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.mathml import mathml
 from tests.commands import done, refused
@@ -43,14 +43,14 @@ OUTSIDE = re.compile(r"""(?:src|href)=["'](?!#|[\w-]+\.html)|url\(|@import|<scri
 STUCK = (GENERATED / "full_stick.py").read_text(encoding="utf-8")
 
 
-def body_of(sheet: FormulaSheet, text: str) -> Body:
+def body_of(sheet: FormulaSheet, text: str) -> BuiltBody:
     proofs = tuple((name, "proven: a stand-in for a proof") for name in sheet)
     verdicts = tuple((name, Verdict.PROVEN) for name in sheet)
-    return Body(sheet.geometry.name, text, STUCK, 0.0, ("forward",), (), verdicts, proofs)
+    return BuiltBody(sheet.geometry.name, text, STUCK, 0.0, ("forward",), (), verdicts, proofs)
 
 
 @cache
-def made(name: str) -> tuple[FormulaSheet, Body]:
+def made(name: str) -> tuple[FormulaSheet, BuiltBody]:
     sheet = of_library(name)
     return sheet, body_of(sheet, (GENERATED / f"{name}.py").read_text())
 
@@ -261,7 +261,7 @@ def test_closed_forms_that_are_found_only_now_stay_away() -> None:
     found = proven(more, body)
     assert [*found] == [*sheet]
     assert "not shown: load_closed" in found.remark
-    assert proven(more, replace(body, struck="None in time.")).remark == "None in time."
+    assert proven(more, replace(body, time_limit_note="None in time.")).remark == "None in time."
     proofs = (*body.proofs, ("load_closed", "numerical: a stand-in for a proof"))
     assert proven(more, replace(body, proofs=proofs)) is more
     assert page(found, body)

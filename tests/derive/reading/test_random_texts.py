@@ -6,7 +6,7 @@ import time
 import pytest
 
 from derive.command.errors import UserError
-from derive.command.new_in_process import BOUNDS, Asked, drafted
+from derive.command.wanted import TEXT_LIMITS, Wanted, in_limited_process
 
 ATOMS = ("x", "x", "R", "b", "phi", "2", "0.5", "1e300", "10**9", "pi", "1/0", "oo", "()", "")
 CALLS = ("exp", "cosh", "Abs", "sqrt", "log", "Max", "tan", "atan2", "gamma", "eval", "__import__")
@@ -36,7 +36,7 @@ def test_every_text_gets_an_answer(part: int) -> None:
         profile = text(rng)
         began = time.monotonic()
         try:
-            drafted(Asked("random_body", profile, "", {}, {}))
+            in_limited_process(Wanted("random_body", profile))
         except UserError as error:
             assert error.message, profile
-        assert time.monotonic() - began < BOUNDS.seconds + 20, profile
+        assert time.monotonic() - began < TEXT_LIMITS.seconds + 20, profile
