@@ -22,7 +22,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).parent.parent
-FILES = [*sorted((ROOT / "derive/theory").glob("*.py")), ROOT / "derive/codegen/rewrite.py"]
+FILES = [
+    *sorted((ROOT / "derive/theory").glob("*.py")),
+    *(ROOT / "derive" / "codegen" / name for name in ("angles.py", "rewrite.py")),
+]
 BODIES = ("wedge", "hertz", "unequal_wedge", "quartic", "flat_rounded", "rounded_wedge", "catenary")
 """Built of every mutant, and compared with what is committed."""
 

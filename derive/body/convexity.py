@@ -4,18 +4,14 @@ In:  the pieces of g(x), and the interval in which they are real.
 Out: conditions on the parameters; BadProfile if no conditions are found that make the body convex.
 
 A polynomial curvature is transformed to t >= 0.  There the least value of A t^n + B t^m + C t^k
-follows from the weighted means of its outer terms, and that of a cubic from its discriminant.  Any
-other curvature is evaluated at many points, for parameters whose ratios span twelve decades, and
-the body is refused if the curvature is negative at any of them.
+follows from the weighted means of its outer terms, and that of a cubic from its discriminant.  The
+conditions are then tested with numbers (trial.py), as is any other curvature.
 """
 
-import random
-from collections.abc import Callable, Iterator
-from itertools import chain, islice, pairwise, product
-from math import gcd, prod
+from collections.abc import Iterator
+from itertools import pairwise, product
+from math import gcd
 
-import mpmath
-from mpmath import mpf
 from sympy import (
     Dummy,
     Expr,
@@ -25,7 +21,6 @@ from sympy import (
     Mul,
     Poly,
     Pow,
-    Rational,
     Symbol,
     cancel,
     diff,
@@ -41,35 +36,16 @@ from sympy import (
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
 
-from derive.body.compiled import compiled
-from derive.body.lows import Lows
 from derive.body.piece import Piece, beside, step
 from derive.body.steep import gently
+from derive.body.trial import Trial
 from derive.command.errors import BadProfile
 from derive.command.limit import LimitReached, within
 from derive.symbols import x
 
-_SAMPLES = 8
-"""Number of parameter sets of similar size for which a body is tested."""
-_WIDE = 48
-"""Number of widely differing parameter sets used if no proof is found."""
-_LEAST, _MOST = Rational(1, 1000), Integer(1000)
-"""Smallest and largest value of those parameters."""
-_DIGITS = 30
-"""Digits to which a curvature is computed; three times as many where it seems to be negative."""
-_ENOUGH = 10
-"""If this many of 40 sets around typical parameters meet the conditions, no more are needed."""
 _PATIENCE = 2.0
 """Seconds allowed for the limit of a curvature at infinity, or of a profile next to a point."""
 
-REAL_AND_FINITE = (
-    "g(x) must be real and finite on both sides of x = 0, and wherever else contact can occur; "
-    "write it without this singularity, for example with Abs(x) instead of x, or shift it along x, "
-    "for example with x + b instead of x, so that the singularity lies outside the contact"
-)
-"""Remedy for a profile that is not real and finite."""
-
-Values = dict[Symbol, Rational]
 Terms = dict[int, Expr]
 """Nonzero coefficients of a polynomial, by power."""
 
@@ -82,7 +58,7 @@ def convex_where(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) -> t
     if all(piece.straight for piece in pieces) and len(pieces) == 1:
         raise BadProfile(name, "is straight", "make it convex somewhere, such as x**2/(2*R)")
     found, doubtful = _demands(pieces)
-    trial = _Trial(name, pieces, domain, doubtful)
+    trial = Trial(name, pieces, domain, doubtful)
     first = trial.failure(found)
     if first is None:
         return found
@@ -319,310 +295,3 @@ def value_beside(expr: Expr, place: Expr, sense: int) -> Expr | None:
             return beside(expr, place, sense) if found is None else found
     except (LimitReached, NotImplementedError, ValueError, TypeError, AttributeError):
         return None
-
-
-# ------------------------------------------------------------------ typical parameters
-
-
-def typical(demands: tuple[Boolean, ...]) -> Values:
-    """Typical parameters that meet the conditions; empty if all parameters can equal one.
-
-    The search covers powers of two farther and farther from one.
-    """
-    least = {d.gts: d.lts for d in demands if d.lts.is_number and d.gts.is_Symbol}
-    symbols = sorted(set().union(*(d.free_symbols for d in demands)) - {*least}, key=str)
-    rng = random.Random(3)
-
-    def drawn(around: Values, spread: int) -> Values:
-        return {p: v * Rational(2) ** rng.randint(-spread, spread) for p, v in around.items()}
-
-    def met(values: Values) -> bool:
-        given = {p: 1 + value for p, value in least.items()} | values
-        return all(bool(demand.subs(given)) for demand in demands)
-
-    def rank(values: Values) -> tuple[int, int]:
-        """How many of 40 similar sets meet the conditions, up to a limit; then nearness to one."""
-        near = sum(met(drawn(values, 1)) for _ in range(40))
-        return min(near, _ENOUGH), -max(map(_size, values.values()))
-
-    ones = dict.fromkeys(symbols, Integer(1))
-    if not symbols or rank(ones)[0] == _ENOUGH:
-        return {}
-    found = (drawn(ones, spread) for spread in (2, 4, 8, 12) for _ in range(50))
-    return max(filter(met, found), key=rank, default={})
-
-
-def _size(power: Rational) -> int:
-    """The magnitude of the exponent of a power of two."""
-    return int(abs(power.p.bit_length() - power.q.bit_length()))
-
-
-# ------------------------------------------------------------------ refusals
-
-
-class _Fault(Exception):
-    """A point where a body is not convex, or not real, for certain parameters."""
-
-    def __init__(self, how: str, values: Values, real: bool = True) -> None:
-        super().__init__(how)
-        self.how, self.real = how, real
-        self.given = ", ".join(f"{symbol} = {value}" for symbol, value in values.items())
-
-    def always(self, name: str) -> BadProfile:
-        """The error for a body that was not found to be convex for any parameters."""
-        if not self.real:
-            return BadProfile(name, self.how, REAL_AND_FINITE)
-        remedy = "make g(x) convex, since the contact could otherwise split into several patches"
-        return BadProfile(name, f"is not convex, because {self.how} for {self.given}", remedy)
-
-    def sometimes(self, name: str) -> BadProfile:
-        """The error for a body that was found to be convex for other parameters."""
-        how = self.how if self.real else f"it {self.how}"
-        why = f"is convex only for some values of its parameters, because {how} for {self.given}"
-        remedy = (
-            "no checkable condition on the parameters was found; make g(x) convex for all "
-            "parameters, for example by replacing some with numbers or multiples of one length"
-        )
-        return BadProfile(name, why, remedy)
-
-
-class _Trial:
-    """The test of a body with many sets of parameters.
-
-    doubtful: pieces that are also tested with widely differing parameters.
-    """
-
-    def __init__(
-        self, name: str, pieces: list[Piece], domain: tuple[Expr, Expr], doubtful: list[Piece]
-    ) -> None:
-        self.name, self.pieces, self.doubtful = name, pieces, doubtful
-        held = set().union(*(piece.profile.free_symbols for piece in pieces)) - {x}
-        self.symbols = sorted(held, key=str)
-        self._curvatures = {
-            piece: _Curvature(piece, domain, self.symbols)
-            for piece in pieces
-            if not piece.curvature.is_polynomial(x)
-        }
-
-    def failure(self, demands: tuple[Boolean, ...]) -> BadProfile | None:
-        """The error for a body that is not convex for all parameters that meet the conditions."""
-        fault, passed = None, False
-        for values, pieces in self._sets(demands):
-            try:
-                self._try(values, pieces)
-                passed = True
-            except _Fault as found:
-                fault = fault or found
-            if fault and passed:
-                return fault.sometimes(self.name)
-        if fault:
-            return fault.always(self.name)
-        if passed:
-            return None
-        needed = " and ".join(map(str, demands))
-        return BadProfile(
-            self.name,
-            f"is convex only if {needed}, and no parameters were found that meet this condition",
-            "make it convex for all parameter values, or for all values above a given number",
-        )
-
-    def _sets(self, demands: tuple[Boolean, ...]) -> Iterator[tuple[Values, list[Piece]]]:
-        """Parameters that meet the conditions, and the pieces to be tested with them."""
-        near = _meeting(demands, _samples(self.symbols), _SAMPLES)
-        far = _meeting(demands, _far_apart(self.symbols, self._exponents), _WIDE)
-        none_near = True
-        for values in near:
-            none_near = False
-            yield values, self.pieces
-        if none_near:
-            yield from ((values, self.pieces) for values in islice(far, _SAMPLES))
-        if self.doubtful and len(self.symbols) > 1:  # a single parameter is only a scale
-            yield from ((values, self.doubtful) for values in far)
-
-    @property
-    def _exponents(self) -> set[Symbol]:
-        powers = {p for piece in self.pieces for p in piece.profile.atoms(Pow)}
-        return set().union(*(power.exp.free_symbols for power in powers))
-
-    def _try(self, values: Values, pieces: list[Piece]) -> None:
-        """Refuse a slope that decreases anywhere; the sign of polynomials is determined exactly."""
-        if pieces is self.pieces:
-            _demand_steps(pieces, values)
-        for piece in pieces:
-            if piece in self._curvatures:
-                self._curvatures[piece].demand(values)
-            else:
-                _demand_rising(piece, values)
-
-
-def _samples(symbols: list[Symbol]) -> Iterator[Values]:
-    rng = random.Random(1)
-    while True:
-        yield {p: Rational(rng.randint(10, 99), 10) ** rng.choice((1, -1)) for p in symbols}
-
-
-def _far_apart(symbols: list[Symbol], exponents: set[Symbol]) -> Iterator[Values]:
-    """Random corners of the parameter space, then points between; exponents stay moderate."""
-    rng = random.Random(2)
-    few = [(_LEAST, Integer(1), _MOST) if p not in exponents else (Integer(2),) for p in symbols]
-    corners = list(islice(product(*few), 3**6))
-    rng.shuffle(corners)
-    yield from (dict(zip(symbols, corner, strict=True)) for corner in corners[: _WIDE // 2])
-    while True:
-        yield {
-            p: Rational(rng.randint(10, 99), 10)
-            * (1 if p in exponents else Integer(10) ** rng.randint(-3, 2))
-            for p in symbols
-        }
-
-
-def _meeting(demands: tuple[Boolean, ...], sets: Iterator[Values], count: int) -> Iterator[Values]:
-    """Up to `count` sets that meet all conditions, from a limited number of candidates."""
-    met = (v for v in islice(sets, 40 * count) if all(bool(d.subs(v)) for d in demands))
-    return islice(met, count)
-
-
-def _negative_at(place: Expr) -> str:
-    return f"its curvature is negative near x = {float(place):.3g}"
-
-
-def _demand_steps(pieces: list[Piece], values: Values) -> None:
-    for left, right in pairwise(_at(piece, values) for piece in pieces):
-        rise = right.slope - left.slope
-        rise = rise.subs(x, right.lower) if rise.is_polynomial(x) else step(left, right)
-        if not rise.is_extended_real or rise < 0:
-            raise _Fault(f"its slope decreases at x = {right.lower}", values)
-
-
-def _at(piece: Piece, values: Values) -> Piece:
-    return Piece(*(expr.subs(values) for expr in (piece.lower, piece.upper, piece.profile)))
-
-
-def _demand_rising(piece: Piece, values: Values) -> None:
-    """Refuse a polynomial that is negative anywhere in the piece."""
-    curvature = Poly(piece.curvature.subs(values), x)
-    lower, upper = _ends(piece, values)
-    odd = [_in_fractions(base) for base, power in curvature.sqf_list()[1] if power % 2]
-    changing = prod(odd, start=Poly(_fraction(curvature.LC()), x))
-    place = _inside(lower, upper)
-    if odd and _roots_between(changing, lower, upper):
-        raise _Fault(_negative_at(_least_between(changing, lower, upper)), values)
-    if changing.eval(place) < 0:
-        raise _Fault(_negative_at(place), values)
-
-
-def _ends(piece: Piece, values: Values) -> tuple[Expr, Expr]:
-    """Both ends as fractions; an irrational end is moved inward by a negligible amount."""
-
-    def moved(end: Expr, inward: int) -> Expr:
-        end = end.subs(values)
-        if end.is_infinite or end.is_Rational:
-            return end
-        return _fraction(end) + inward * abs(Rational(str(end.evalf(5)))) / 10**40
-
-    return moved(piece.lower, 1), moved(piece.upper, -1)
-
-
-def _in_fractions(poly: Poly) -> Poly:
-    """A polynomial with simple roots, made monic, with coefficients to more digits than needed.
-
-    SymPy isolates roots only for fractional coefficients, and fails for sqrt(2) or for pi and E.
-    """
-    return Poly([_fraction(value) for value in poly.monic().all_coeffs()], x)
-
-
-def _fraction(number: Expr) -> Rational:
-    """The number itself if it is rational, otherwise its first 60 digits."""
-    return number if number.is_Rational else Rational(str(number.evalf(60)))
-
-
-def _inside(lower: Expr, upper: Expr) -> Rational:
-    """A point between two ends, which may be infinite."""
-    if lower == -oo:
-        return upper - 1 if upper != oo else Integer(0)
-    return lower + 1 if upper == oo else (lower + upper) / 2
-
-
-def _roots_between(poly: Poly, lower: Expr, upper: Expr) -> int:
-    """Number of roots of a polynomial with simple roots between two points, without these."""
-    ends = [end for end in (lower, upper) if end.is_finite and poly.eval(end) == 0]
-    low, high = (end if end.is_finite else None for end in (lower, upper))
-    return int(poly.count_roots(low, high)) - len(ends)
-
-
-def _least_between(poly: Poly, lower: Expr, upper: Expr) -> Rational:
-    """Of one point in each interval between roots and ends, the one with the least value."""
-    found = poly.intervals(eps=Rational(1, 10**9))
-    roots = [(low + high) / 2 for (low, high), _ in found]
-    marks = [end for end in (lower, *roots, upper) if lower <= end <= upper and end.is_finite]
-    places = [_inside(p, q) for p, q in pairwise([-oo, *marks, oo])]
-    return min((place for place in places if lower < place < upper), key=poly.eval)
-
-
-class _Curvature:
-    """A curvature that is not a polynomial, and its profile, compiled once for all parameters."""
-
-    def __init__(self, piece: Piece, domain: tuple[Expr, Expr], symbols: list[Symbol]) -> None:
-        self._at, self._profile = (
-            compiled([x, *symbols], expr, modules="mpmath")
-            for expr in (piece.curvature, piece.profile)
-        )
-        ends = [piece.lower, piece.upper, *domain]
-        self._ends = compiled(symbols, ends, modules="mpmath")
-        self._lows = None if piece.curvature.is_nonnegative else Lows(piece.curvature, symbols)
-
-    def demand(self, values: Values) -> None:
-        """Refuse a curvature that is negative, or not real, at any of many points.
-
-        The profile must be real too: log(x) is not real for x < 0, but its curvature is.
-        """
-        with mpmath.workdps(_DIGITS):
-            for place in chain(self._places(values), self._suspects(values)):
-                value = self._value(self._at, place, values)
-                if any(map(mpmath.im, (value, self._value(self._profile, place, values)))):
-                    raise _Fault(f"is not real near x = {float(place):.3g}", values, real=False)
-                if mpmath.re(value) < 0 and self._is_sure(place, value, values):
-                    raise _Fault(_negative_at(place), values)
-
-    def _value(self, function: Callable[..., mpf], place: mpf, values: Values) -> mpf:
-        """The curvature or the profile; zero where it is undefined."""
-        try:
-            return function(place, *_numbers(values))
-        except (ZeroDivisionError, OverflowError):
-            return mpf(0)
-
-    def _is_sure(self, place: mpf, value: mpf, values: Values) -> bool:
-        """Whether the sign of a value is certain and not the result of cancellation."""
-        with mpmath.workdps(3 * _DIGITS):
-            again = self._value(self._at, place, values)
-            return bool(abs(again - value) < abs(again) / 1000)
-
-    def _places(self, values: Values) -> Iterator[mpf]:
-        """Points in the piece and the domain, close to its ends and far from them."""
-        given = _numbers(values)
-        lower, upper, *domain = map(mpf, self._ends(*given))
-        least = min([*given, mpf(1)]) / 1000
-        steps = 3 * int(mpmath.log10(max([*given, mpf(1)]) * 1000 / least)) + 1
-        for distance in (least * mpf(10) ** (mpf(k) / 3) for k in range(steps)):
-            if mpmath.isinf(lower) and mpmath.isinf(upper):
-                found = [-distance, distance]
-            else:
-                found = [lower + distance] if mpmath.isfinite(lower) else []
-                found += [upper - distance] if mpmath.isfinite(upper) else []
-            for place in found:
-                if lower < place < upper and domain[0] < place < domain[1]:
-                    yield place
-
-    def _suspects(self, values: Values) -> Iterator[mpf]:
-        """Points in the piece and the domain where the curvature may be negative or undefined."""
-        if self._lows is None:
-            return
-        given = _numbers(values)
-        lower, upper, first, last = map(mpf, self._ends(*given))
-        lower, upper = max(lower, first), min(upper, last)
-        found = self._lows.places([*map(float, given)], float(lower), float(upper))
-        yield from (place for place in map(mpf, found) if lower < place < upper)
-
-
-def _numbers(values: Values) -> list[mpf]:
-    return [mpf(value.p) / value.q for value in values.values()]

@@ -1,12 +1,13 @@
-"""Search, in double precision at thousands of points, for places where a function may be negative.
+"""Search, in double precision, for places where a curvature may be negative or undefined.
 
-In:  an expression of x; numbers for its parameters, and the ends of an interval.
-Out: places where it seems to be negative or undefined, few enough to be checked with many digits,
-     because double precision alone does not decide.
+In:  a piece of a profile; numbers for its parameters, and the ends of an interval.
+Out: places where the curvature seems to be negative, or the profile or the curvature undefined, few
+     enough to be checked with many digits, because double precision alone does not decide.
 
-The points lie at distances of all magnitudes from the origin, from the ends and from places where
-the arguments of functions are zero or one, since narrow features are found there.  The search is
-refined around the lowest of them.
+A polynomial is least at its turning points or at the ends.  Any other curvature is evaluated at
+thousands of points.  They lie at distances of all magnitudes from the origin, from the ends and
+from places where the arguments of functions are zero or one, since narrow features are found there.
+The search is refined around the lowest of them.
 """
 
 from collections.abc import Iterator, Sequence
@@ -28,6 +29,7 @@ from sympy import (
 )
 
 from derive.body.compiled import compiled
+from derive.body.piece import Piece
 from derive.symbols import x
 
 Array = NDArray[np.float64]
@@ -36,6 +38,8 @@ _PER_DECADE = 200
 """Distances per decade from the origin and the ends; from other marks a quarter as many."""
 _BEYOND = 1000
 """Factor by which the search extends beyond the largest length and below the smallest."""
+_INSIDE = 1e-9
+"""Distance from an end at which a polynomial is evaluated, relative to the interval."""
 _DECADES = 16
 """Largest number of decades that the distances span."""
 _EVENLY = 4000
@@ -49,16 +53,20 @@ _NEGATIVE, _WITHOUT = 24, 4
 
 
 class Lows:
-    """The search for one expression, compiled once for all parameters."""
+    """The search for one piece, compiled once for all parameters."""
 
-    def __init__(self, expr: Expr, symbols: Sequence[Symbol]) -> None:
-        expr = powsimp(expr, combine="exp") if expr.has(exp) else expr  # no exp(1e5) * exp(-1e5)
-        self._at = compiled([x, *symbols], expr, shared=True, modules="numpy")
-        self._polynomials = compiled(symbols, list(_marking(expr)), modules="numpy")
+    def __init__(self, piece: Piece, symbols: Sequence[Symbol]) -> None:
+        both = [_joined(expr) for expr in (piece.curvature, piece.profile)]
+        self._is_polynomial = bool(both[0].is_polynomial(x))
+        own = [Tuple(*Poly(both[0], x).all_coeffs())] if self._is_polynomial else _marking(both[0])
+        self._polynomials = compiled(symbols, [*own], modules="numpy")
+        self._at = compiled([x, *symbols], both, shared=True, modules="numpy")
 
     def places(self, given: Sequence[float], lower: float, upper: float) -> list[float]:
-        """Points between two ends where the expression may be negative, the likeliest first."""
+        """Points between two ends where the curvature may be negative, the likeliest first."""
         numbers = [np.float64(value) for value in given]
+        if self._is_polynomial:
+            return self._turning_points(numbers, lower, upper)
         with np.errstate(all="ignore"):
             places = self._grid(numbers, lower, upper)
             if not places.size:
@@ -69,11 +77,25 @@ class Lows:
             values = np.concatenate((values, self._values(found, numbers)))[first]
         return [*_lowest(places, values), *_without_value(places, values)]
 
+    def _turning_points(self, numbers: list[np.float64], lower: float, upper: float) -> list[float]:
+        """Points where a polynomial may be least, beginning with the lowest."""
+        coefficients = np.array(self._polynomials(*numbers)[0], dtype=float)
+        turning = np.roots(np.polyder(coefficients)).real
+        ends = np.array([end for end in (lower, upper) if np.isfinite(end)])
+        most = np.max(np.abs([*np.roots(coefficients), *turning, *ends]), initial=1.0) * _BEYOND
+        low, high = max(lower, -most), min(upper, most)
+        inside = _INSIDE * (high - low)
+        places = np.array([low + inside, high - inside, *turning])
+        return [*map(float, places[np.argsort(np.polyval(coefficients, places))])]
+
     def _values(self, places: Array, numbers: list[np.float64]) -> Array:
+        """The curvature; NaN where it or the profile is undefined."""
         try:
-            return np.broadcast_to(np.real(self._at(places, *numbers)), places.shape)
+            curvature, profile = self._at(places, *numbers)
         except (OverflowError, ZeroDivisionError, TypeError):  # whole numbers beyond 1e308
             return np.full(places.shape, np.nan)
+        curvature = np.where(np.isnan(profile), np.nan, np.real(curvature))
+        return np.broadcast_to(curvature, places.shape)
 
     def _grid(self, numbers: list[np.float64], lower: float, upper: float) -> Array:
         roots = self._roots(numbers)
@@ -116,6 +138,11 @@ class Lows:
             low = tried[rows, np.maximum(least - 1, 0)]
             high = tried[rows, np.minimum(least + 1, _STEPS - 1)]
         return np.concatenate(found)
+
+
+def _joined(expr: Expr) -> Expr:
+    """The expression without products such as exp(1e5) * exp(-1e5), which overflow."""
+    return powsimp(expr, combine="exp") if expr.has(exp) else expr
 
 
 def _marking(expr: Expr) -> Iterator[Tuple]:

@@ -9,12 +9,9 @@ Out: a `Slope`: g'(x) as that of one reference piece plus a jump at each kink, i
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
-from math import prod
 
 from sympy import (
-    Abs,
     AccumBounds,
-    And,
     Dummy,
     E,
     Expr,
@@ -23,16 +20,11 @@ from sympy import (
     Heaviside,
     Integer,
     Limit,
-    Max,
-    Min,
-    Not,
     NumberSymbol,
-    Or,
     Piecewise,
     Poly,
     Pow,
     Rational,
-    S,
     Symbol,
     acos,
     acosh,
@@ -46,14 +38,12 @@ from sympy import (
     diff,
     exp,
     expand,
-    factor,
     fraction,
     limit,
     log,
     nan,
     oo,
     pi,
-    re,
     roots,
     sign,
     simplify,
@@ -63,20 +53,20 @@ from sympy import (
     tanh,
     together,
 )
-from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
 
-from derive.body.convexity import REAL_AND_FINITE, convex_where, typical, value_beside
+from derive.body.branches import BRANCHING, is_known_positive, is_positive, merged, resolved
+from derive.body.convexity import convex_where, value_beside
 from derive.body.piece import Piece, step, surpluses, with_surpluses
 from derive.body.steep import gently
+from derive.body.trial import REAL_AND_FINITE, typical
 from derive.command.errors import BadProfile
 from derive.symbols import a, c, x
 
-_BRANCHING = (Abs, sign, Max, Min, Heaviside, Piecewise)
 _JUMPING = (sign, Heaviside, Piecewise)
 """Functions whose value at a branch point may differ from the values on both sides."""
 _SMOOTH = (exp, log, sinh, cosh, tanh, asinh, atan)
-_FIXED = (*_BRANCHING, *_SMOOTH, sin, cos, tan, asin, acos, acosh, atanh, atan2)
+_FIXED = (*BRANCHING, *_SMOOTH, sin, cos, tan, asin, acos, acosh, atanh, atan2)
 """Functions of parameters and numbers that the proofs can compute to any number of digits."""
 
 
@@ -170,9 +160,9 @@ def read_slope(name: str, g: Expr) -> Slope:
 
     Raises BadProfile if g is not real, not continuous, not convex, or straight.
     """
-    pieces = _resolved(name, g, -oo, oo)
+    pieces = resolved(name, g, -oo, oo)
     _demand_no_point_apart(name, g, pieces)
-    pieces = _merged(pieces)
+    pieces = merged(pieces)
     _demand_known_functions(name, pieces)
     _demand_known_numbers(name, pieces)
     domain = _domain(name, pieces)
@@ -193,273 +183,17 @@ def read_slope(name: str, g: Expr) -> Slope:
     return Slope(tuple(pieces), expand(pieces[reference].slope), tuple(kinks), domain, demands)
 
 
-def _resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
-    """Split (lower, upper) where the innermost branch of g switches, and repeat for each part."""
-    g = _with_moduli(g)
-    inner = _innermost(g)
-    if inner is None:
-        g = expand(g)
-        inner = _innermost(g)  # (x**2 cosh(x/b))**k becomes Abs(x)**(2 k) cosh(x/b)**k
-    if inner is None:
-        return [Piece(lower, upper, g)]
-    points = [lower, *_between(name, _switching_points(name, inner), lower, upper), upper]
-    pieces = []
-    for left, right in pairwise(points):
-        value = _branch(name, inner, left, right)
-        pieces += _resolved(name, g.xreplace({inner: value}), left, right)
-    return pieces
-
-
 def _ends_beyond_origin(piece: Piece) -> bool:
     """Whether a piece is known to contain the origin or to end to the right of it.
 
     The first such piece contains the origin if the positions of the kinks are known.  Any other
     piece would also do.
     """
-    return piece.upper == 0 or bool(_is_known_positive(piece.upper))
-
-
-def _with_moduli(g: Expr) -> Expr:
-    """Write roots of squares, which hide kinks, as moduli: sqrt((x - b)**2) is Abs(x - b)."""
-    powers = [p for p in g.atoms(Pow) if not p.exp.is_Integer and p.base.is_rational_function(x)]
-    found = {p: _without_squares(p) for p in powers if p.base.has(x) and not p.exp.has(x)}
-    return g.xreplace({power: value for power, value in found.items() if value != power})
-
-
-def _without_squares(power: Pow) -> Expr:
-    """Write (f^(2 n) r)^k as |f|^(2 n k) r^k, where f and r are quotients of polynomials."""
-    sides = [Poly(side, x).sqf_list() for side in fraction(together(power.base))]
-    squares = [
-        (abs(part.as_expr()), sense * (times - times % 2))
-        for sense, (_, factors) in zip((1, -1), sides, strict=True)
-        for part, times in factors
-        if times > 1
-    ]
-    if not squares:
-        return power
-    rest = [
-        constant * prod(part.as_expr() ** (times % 2) for part, times in factors)
-        for constant, factors in sides
-    ]
-    moduli = prod(modulus ** (times * power.exp) for modulus, times in squares)
-    return (rest[0] / rest[1]) ** power.exp * moduli
-
-
-def _innermost(g: Expr) -> Expr | None:
-    found = [node for node in g.atoms(*_BRANCHING) if node.has(x)]
-    simple = [n for n in found if not any(n is not other and n.has(other) for other in found)]
-    return min(simple, key=str, default=None)
-
-
-def _arguments(node: Expr) -> list[Expr]:
-    """Expressions whose changes of sign switch the branch of `node`."""
-    if isinstance(node, Max | Min):
-        first, *rest = node.args
-        return [first - second for second in rest] + [
-            p - q for i, p in enumerate(rest) for q in rest[i + 1 :]
-        ]
-    if isinstance(node, Piecewise):
-        relations = {r for _, condition in node.args for r in condition.atoms(Relational)}
-        return [r.lhs - r.rhs for r in sorted(relations, key=str)]
-    return [node.args[0]]
-
-
-def _switching_points(name: str, node: Expr) -> list[Expr]:
-    points: list[Expr] = []
-    for argument in _arguments(node):
-        if not argument.has(x):
-            continue
-        if not argument.is_polynomial(x):
-            raise BadProfile(
-                name,
-                f"switches branches with {argument}, which is not a polynomial in x",
-                "in conditions and in Abs, Max, Min, sign, Heaviside, use only polynomials in x, "
-                "such as x - b",
-            )
-        points += _roots(name, Poly(argument, x))
-    return list(dict.fromkeys(points))
-
-
-def _roots(name: str, poly: Poly) -> list[Expr]:
-    """All real roots; raises an error if any of them is not known."""
-    found = roots(poly)
-    remedy = "write each branch with Abs(x - b), Max(0, x - b) or a condition such as x < b"
-    at_origin = sum(times for root, times in found.items() if root == 0)
-    lowest = min(power for (power,), _ in poly.terms())
-    if sum(found.values()) < poly.degree() or at_origin != lowest:  # roots near 1e-30 are not zero
-        why = (
-            f"switches branches where {poly.as_expr()} changes sign, but the x at which it does so "
-            "cannot be found"
-        )
-        raise BadProfile(name, why, remedy)
-    for root in found:
-        if root.is_real is None:
-            numerator, denominator = fraction(simplify(root))
-            if numerator.is_real and denominator.is_real and not denominator.is_nonzero:
-                why = f"the sign of {denominator} depends on the parameters"
-                raise BadProfile(
-                    name, f"has a kink at x = {simplify(root)}, but {why}", _order(denominator)
-                )
-            why = f"has a kink at x = {simplify(root)}, which is real only for some parameters"
-            raise BadProfile(name, why, remedy)
-    return [simplify(root) for root in found if root.is_real]
-
-
-def _between(name: str, points: list[Expr], lower: Expr, upper: Expr) -> list[Expr]:
-    inside: list[Expr] = []
-    for point in points:
-        left = lower == -oo or _is_positive(name, point - lower)
-        right = upper == oo or _is_positive(name, upper - point)
-        if left and right:
-            place = next(
-                (i for i, other in enumerate(inside) if _is_positive(name, other - point)),
-                len(inside),
-            )
-            inside.insert(place, point)
-    return inside
-
-
-def _is_positive(name: str, difference: Expr) -> bool:
-    found = _is_known_positive(difference)
-    if found is None:
-        difference = simplify(difference)
-        raise BadProfile(
-            name,
-            f"has kinks in an unknown order, as the sign of {difference} depends on the parameters",
-            _order(difference),
-        )
-    return found
-
-
-def _is_known_positive(difference: Expr) -> bool | None:
-    """Whether a difference is positive; None if this depends on the parameters."""
-    difference = simplify(difference)
-    if difference.is_extended_positive:
-        return True
-    if difference.is_extended_nonpositive:
-        return False
-    squares = _squares(difference)
-    if squares is not None and squares.is_extended_nonzero:
-        return bool(squares.is_extended_positive)
-    return None
-
-
-def _squares(difference: Expr) -> Expr | None:
-    """+-(p^2 - q^2 r), which has the sign of p + q sqrt(r), if exactly one of the two terms is
-    negative.
-
-    None if there are several roots of sums, or if signs are not known.
-    """
-    roots = [p for p in difference.atoms(Pow) if p.exp == S.Half and p.base.is_Add]
-    if len(roots) != 1:
-        return None
-    inner = Dummy("r", positive=True)
-    numerator, denominator = fraction(together(difference).xreplace({roots[0]: inner}))
-    if denominator.has(inner) or not numerator.is_polynomial(inner):
-        return None
-    poly = Poly(numerator, inner)
-    if poly.degree() != 1:
-        return None
-    outer, beside = poly.nth(1), poly.nth(0)
-    if not denominator.is_positive or not (outer * beside).is_negative:
-        return None
-    return factor((beside**2 - outer**2 * roots[0].base) * (1 if beside.is_positive else -1))
-
-
-def _order(difference: Expr) -> str:
-    """The advice to a user who must fix the sign of a difference."""
-    held = {symbol.name for symbol in difference.free_symbols}
-    gap = next(word for word in ("gap", "excess", "further") if word not in held)
-    for symbol in sorted(difference.free_symbols, key=str, reverse=True):
-        rate = diff(difference, symbol)
-        if rate.is_number:
-            other = expand(symbol - difference / rate)
-            return (
-                f"fix this sign with a new positive parameter {gap}, for example by writing "
-                f"{symbol} = {other} + {gap}"
-            )
-    return f"fix this sign by writing one term as another plus a new positive parameter {gap}"
-
-
-def _inside(lower: Expr, upper: Expr) -> Expr:
-    if lower == -oo:
-        return upper - 1 if upper != oo else Integer(0)
-    return lower + 1 if upper == oo else (lower + upper) / 2
-
-
-def _in_between(expr: Expr, lower: Expr, upper: Expr) -> Expr:
-    """A number with the sign that a polynomial without roots between two points has there.
-
-    This is the leading coefficient if an end is infinite, otherwise the value in the middle.  No
-    length is compared with 1 m.
-    """
-    if not expr.has(x) or (lower == -oo and upper == oo):
-        return simplify(expr.subs(x, 0))
-    if lower.is_finite and upper.is_finite:
-        return simplify(expr.subs(x, (lower + upper) / 2))
-    return simplify(Poly(expr if upper == oo else expr.subs(x, -x), x).LC())
-
-
-def _branch(name: str, node: Expr, lower: Expr, upper: Expr) -> Expr:
-    """The value of `node` between two points, as an expression without this branching function."""
-
-    def positive(expr: Expr) -> bool:
-        value = _in_between(expr, lower, upper)
-        return value != 0 and _is_positive(name, value)
-
-    def holds(condition: Boolean) -> bool:
-        if condition in (S.true, S.false):
-            return bool(condition)
-        if isinstance(condition, And | Or | Not):
-            values = [holds(arg) for arg in condition.args]
-            if isinstance(condition, Not):
-                return not values[0]
-            return all(values) if isinstance(condition, And) else any(values)
-        if isinstance(condition, Relational):
-            value = _in_between(condition.lhs - condition.rhs, lower, upper)
-            return (
-                bool(condition.func(value, 0))
-                if value == 0
-                else bool(condition.func(1 if _is_positive(name, value) else -1, 0))
-            )
-        why = f"uses the condition {condition}, which is not supported"
-        raise BadProfile(name, why, "use <, <=, > or >=, combined with and, or, not")
-
-    match node:
-        case Abs():
-            return node.args[0] if positive(node.args[0]) else -node.args[0]
-        case sign():
-            return Integer(1) if positive(node.args[0]) else Integer(-1)
-        case Heaviside():
-            return Integer(1) if positive(node.args[0]) else Integer(0)
-        case Max() | Min():
-            best = node.args[0]
-            for other in node.args[1:]:
-                if positive(other - best) == isinstance(node, Max):
-                    best = other
-            return best
-    for value, condition in node.args:
-        if holds(condition):
-            return value
-    where = f"x = {_inside(lower, upper)}"
-    raise BadProfile(
-        name, f"is not defined near {where}", "end the Piecewise with (expression, True)"
-    )
-
-
-def _merged(pieces: list[Piece]) -> list[Piece]:
-    merged = pieces[:1]
-    for piece in pieces[1:]:
-        last = merged[-1]
-        if gently(simplify, piece.profile - last.profile) == 0:
-            merged[-1] = Piece(last.lower, piece.upper, last.profile)
-        else:
-            merged.append(piece)
-    return merged
+    return piece.upper == 0 or bool(is_known_positive(piece.upper))
 
 
 def _demand_known_functions(name: str, pieces: list[Piece]) -> None:
-    known = ", ".join(f.__name__ for f in (*_BRANCHING, *_SMOOTH))
+    known = ", ".join(f.__name__ for f in (*BRANCHING, *_SMOOTH))
     for piece in pieces:
         for held in sorted(piece.profile.atoms(Function), key=str):
             if held.has(x) and not isinstance(held, _SMOOTH):
@@ -490,11 +224,13 @@ def _not_computed(name: str, held: Expr) -> BadProfile:
 def _demand_finite(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) -> None:
     """Refuse a pole or a logarithmic singularity, except at the ends of the domain."""
     for piece in pieces:
-        for place in _branch_points(piece.profile):
+        for place in branch_points(piece.profile):
             for sense, end in ((1, piece.upper), (-1, piece.lower)):
-                if place == end or not _is_held(place, piece, domain):
+                if not place.is_real or place in (end, *domain):
                     continue
-                if _is_infinite(piece.profile, place, sense):
+                if lies_in(place, piece, domain, strictly=False) and _is_infinite(
+                    piece.profile, place, sense
+                ):
                     raise BadProfile(name, f"is infinite at x = {place}", REAL_AND_FINITE)
 
 
@@ -505,13 +241,11 @@ def _is_infinite(profile: Expr, place: Expr, sense: int) -> bool:
     return found is not None and found.is_finite is False
 
 
-def _is_held(place: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
-    """Whether a point is known to lie in a piece or at its ends, and inside the domain."""
-    (lower, upper), (low, high) = (piece.lower, piece.upper), domain
-    if not place.is_real or place in domain:
-        return False
-    inward = [place - end for end in (lower, low)] + [end - place for end in (upper, high)]
-    return all(distance == oo or bool(simplify(distance).is_nonnegative) for distance in inward)
+def lies_in(place: Expr, piece: Piece, domain: tuple[Expr, Expr], strictly: bool = True) -> bool:
+    """Whether a point is known to lie in a piece and inside the domain; or at an end of it."""
+    ends = ((piece.lower, 1), (domain[0], 1), (piece.upper, -1), (domain[1], -1))
+    distances = (simplify(sense * (place - end)) for end, sense in ends if end.is_finite)
+    return all(bool(d.is_positive if strictly else d.is_nonnegative) for d in distances)
 
 
 def _demand_continuous(name: str, pieces: list[Piece]) -> None:
@@ -535,7 +269,7 @@ def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
         here = g.subs(x, right.lower)
         near = [piece.profile.subs(x, right.lower) for piece in (left, right)]
         apart, jump = (gently(simplify, value - near[0]) for value in (here, near[1]))
-        if jump == 0 and apart != 0 and apart.is_real and not apart.has(*_BRANCHING):
+        if jump == 0 and apart != 0 and apart.is_real and not apart.has(*BRANCHING):
             raise BadProfile(
                 name,
                 f"has the value {here} at x = {right.lower}, but {near[0]} next to it",
@@ -547,12 +281,12 @@ def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
 def _domain(name: str, pieces: list[Piece]) -> tuple[Expr, Expr]:
     """The interval in which the outermost pieces are real, up to zeros of bases of powers."""
     low, high = -oo, oo
-    for point in _branch_points(pieces[0].profile):
-        if point.is_real and _is_positive(name, _reach(pieces[0], upper=True) - point):
-            low = point if low == -oo or _is_positive(name, point - low) else low
-    for point in _branch_points(pieces[-1].profile):
-        if point.is_real and _is_positive(name, point - _reach(pieces[-1], upper=False)):
-            high = point if high == oo or _is_positive(name, high - point) else high
+    for point in branch_points(pieces[0].profile):
+        if point.is_real and is_positive(name, _reach(pieces[0], upper=True) - point):
+            low = point if low == -oo or is_positive(name, point - low) else low
+    for point in branch_points(pieces[-1].profile):
+        if point.is_real and is_positive(name, point - _reach(pieces[-1], upper=False)):
+            high = point if high == oo or is_positive(name, high - point) else high
     return low, high
 
 
@@ -562,7 +296,7 @@ def _reach(piece: Piece, upper: bool) -> Expr:
     return end if end.is_finite else Integer(0)
 
 
-def _branch_points(profile: Expr) -> list[Expr]:
+def branch_points(profile: Expr) -> list[Expr]:
     """Real and complex zeros of the arguments of log, of 1 + z**2 for atan(z), and of the bases of
     powers whose exponent is not a natural number."""
     bases = {p.base for p in profile.atoms(Pow) if p.base.has(x) and not _is_natural(p.exp)}
@@ -592,29 +326,3 @@ def exact(expr: Expr) -> Expr:
 
 def _is_natural(exponent: Expr) -> bool:
     return bool(exponent.is_Integer and exponent.is_nonnegative)
-
-
-def breaks_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
-    """Points where quadrature must split the body, and the pieces between them.
-
-    These are the kinks and the real parts of complex singularities.  A smooth body is split at the
-    origin.
-    """
-    pieces: list[Piece] = []
-    for piece in slope.pieces:
-        beside = {simplify(re(point)) for point in _branch_points(piece.profile)}
-        inner = sorted((p for p in beside if lies_in(p, piece, slope.domain)), key=str)
-        ends = [piece.lower, *inner[:1], piece.upper]
-        pieces += [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
-    if len(pieces) == 1:
-        (piece,) = pieces
-        pieces = [Piece(-oo, Integer(0), piece.profile), Piece(Integer(0), oo, piece.profile)]
-    return tuple(piece.upper for piece in pieces[:-1]), tuple(pieces)
-
-
-def lies_in(point: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
-    """Whether a point is known to lie strictly inside a piece and inside the domain."""
-    ends = ((piece.lower, 1), (domain[0], 1), (piece.upper, -1), (domain[1], -1))
-    return all(
-        end in (oo, -oo) or bool(simplify(sense * (point - end)).is_positive) for end, sense in ends
-    )

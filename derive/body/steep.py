@@ -9,14 +9,14 @@ from math import lcm
 
 from sympy import Dummy, Expr, Function, Pow, Rational, powsimp
 
-_MOST = 50
+_MAX_DEGREE = 50
 """Largest degree at which functions and powers are treated as polynomials in the smallest one."""
 
 
 def gently(compute: Callable[[Expr], Expr], expr: Expr) -> Expr:
     """Return compute(expr); steep functions and powers are temporarily replaced by symbols."""
     nodes = [node for node in expr.atoms(Function, Pow) if _is_transcendental(node)]
-    if _degree(nodes) <= _MOST:
+    if _degree(nodes) <= _MAX_DEGREE:
         return compute(expr)
     combined = powsimp(expr, combine="exp")
     symbols: dict[Expr, Dummy] = {}

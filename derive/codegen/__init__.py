@@ -3,10 +3,12 @@
 plan      chooses how each function is evaluated: formula, sum over parts, quadrature or solver
 program   the steps and outputs of a function, before they are printed as text
 rewrite   rules that avoid loss of digits in floating point; results are compared with the source
+angles    those of these rules that concern angles
 parts     functions of kinked polynomial bodies as sums over the parts of a contact
 printer   SymPy -> NumPy source
 contract  the functions that every module has
 function  the text of one function that has a formula
+example   numbers for the examples in docstrings
 law       the text of the body's functions that the solvers call
 cuts      the points at which a body without closed formulas is cut for quadrature
 integrals the integrals that are evaluated for such a body, as its docstrings print them

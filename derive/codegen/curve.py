@@ -32,7 +32,7 @@ from sympy import (
 
 from derive.body.piece import Piece
 from derive.codegen.cuts import cuts_of
-from derive.codegen.law import PRESSURE, STATE, LawText, as_float
+from derive.codegen.law import BREAKS, PRESSURE, SERIES, STATE, LawText, as_float
 from derive.codegen.printer import NumPyPrinter
 from derive.symbols import x
 
@@ -53,7 +53,7 @@ class CurveText(LawText):
             "pressure": PRESSURE,
             "state": STATE,
             "slope": ("x", "g'(x) and g''(x); infinite beyond the ends of the body."),
-            "series": ("a, c", "L_N for E* = 1."),
+            "series": SERIES,
         }
         yield "@kernel"
         words = "g', g'' and t g''' at the distance t from a break."
@@ -76,8 +76,7 @@ class CurveText(LawText):
                 f"    return pieces.{name}(curve, {arguments}, own)",
             ]
             yield from self.function(f"_law_{name}", arguments, words, lines)
-        words = "Points at which the formula of the curve changes."
-        yield from self.function("_law_breaks", "", words, ["    return _cuts(own)"])
+        yield from self.function("_law_breaks", *BREAKS, ["    return _cuts(own)"])
 
     def _demands(self) -> Iterator[str]:
         """Code that returns NaN unless the parameters meet the conditions of the body.

@@ -21,11 +21,12 @@ from sympy import (
     expand,
     factor_list,
     oo,
+    re,
     simplify,
 )
 
 from derive.body.piece import Piece
-from derive.body.profile import Slope, breaks_of, lies_in
+from derive.body.profile import Slope, branch_points, lies_in
 from derive.symbols import x
 
 HARMLESS = 1
@@ -75,30 +76,39 @@ def cuts_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
     >>> cuts_of(read_slope("", (x - b) ** 4 / b**3))[0]
     (b,)
     """
-    pieces: list[Piece] = []
-    if cancels(slope):
-        for piece in slope.pieces:
-            ends = [piece.lower, *_level_points(piece), piece.upper]
-            pieces += [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
-    if len(pieces) <= 1:
-        pieces = [*breaks_of(slope)[1]]
-    pieces = [half for piece in pieces for half in _at_origin(piece, slope)]
+    cancelling, pieces = cancels(slope), []
+    for piece in slope.pieces:
+        places = _level_points(piece) if cancelling else _beside_singularities(piece, slope)
+        for part in _cut(piece, *places):
+            pieces += _cut(part, _ORIGIN) if _is_level(part, slope) else [part]
+    if len(pieces) == 1:
+        pieces = _cut(pieces[0], _ORIGIN)
     return tuple(piece.upper for piece in pieces[:-1]), tuple(pieces)
 
 
-def _at_origin(piece: Piece, slope: Slope) -> list[Piece]:
-    """The piece, cut at the origin if the origin is inside it and g' or g'' is zero there.
+_ORIGIN = Integer(0)
+
+
+def _cut(piece: Piece, *places: Expr) -> list[Piece]:
+    ends = pairwise([piece.lower, *places, piece.upper])
+    return [Piece(low, high, piece.profile) for low, high in ends]
+
+
+def _is_level(piece: Piece, slope: Slope) -> bool:
+    """Whether the origin is inside a curved piece, and g' or g'' is zero there.
 
     Small contacts lie at such an origin.  Written about any other point, g' would be a small
     difference of large terms there.
     """
-    origin = Integer(0)
-    if piece.straight or not lies_in(origin, piece, slope.domain):
-        return [piece]
-    if all(value.subs(x, origin) != 0 for value in (piece.slope, piece.curvature)):
-        return [piece]
-    ends = (piece.lower, origin, piece.upper)
-    return [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
+    if piece.straight or not lies_in(_ORIGIN, piece, slope.domain):
+        return False
+    return any(value.subs(x, _ORIGIN) == 0 for value in (piece.slope, piece.curvature))
+
+
+def _beside_singularities(piece: Piece, slope: Slope) -> list[Expr]:
+    """The real part of a complex singularity beside a piece, if there is one."""
+    beside = {simplify(re(point)) for point in branch_points(piece.profile)}
+    return sorted((p for p in beside if lies_in(p, piece, slope.domain)), key=str)[:1]
 
 
 def _level_points(piece: Piece) -> list[Expr]:

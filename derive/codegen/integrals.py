@@ -7,9 +7,9 @@ Out: the text of the function; for its docstring, the integrals over g'' that
 Each corner, where g' jumps, adds a term in which the jump of g' takes the place of g'' dxi.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 
 from sympy import (
     Abs,
@@ -29,7 +29,7 @@ from sympy import (
 )
 
 from derive.body.piece import Piece
-from derive.body.profile import Kink
+from derive.body.profile import Kink, Slope
 from derive.codegen.function import FunctionText, by_name, local
 from derive.codegen.program import Program
 from derive.sheet.formulas import FormulaSheet
@@ -105,33 +105,14 @@ class Integrals:
         curved = of(Integral(curvature(xi) * weight(xi), (xi, -a, c)))
         return curved + sum((k.step * weight(k.position) for k in self._corners), S.Zero)
 
-    @cached_property
+    @property
     def _corners(self) -> tuple[Kink, ...]:
-        return tuple(k for k in self.sheet.geometry.slope.kinks if k.is_corner)
+        return _corners(self.sheet.geometry.slope)
 
-    @cached_property
-    def definitions(self) -> dict[Expr, Expr]:
+    @property
+    def definitions(self) -> Mapping[Expr, Expr]:
         """The definitions of the functions; they are zero at a corner outside the contact."""
-        left, right = a + xi, c - xi
-        ratios = (right / left, left / right)
-        least = Min((a + x) * right, left * (c - x))
-        to_edges = [sqrt(ratio) for ratio in ratios]
-        if self._corners:
-            to_edges = [root_ratio.definition(*ends) for ends in ((right, left), (left, right))]
-            left, right, least = Max(0, left), Max(0, right), Max(0, least)
-        return {
-            w(xi): sqrt(left * right),
-            to_left(xi): to_edges[0],
-            to_right(xi): to_edges[1],
-            kernel(x, xi): asinh(sqrt(least / (h * Abs(x - xi)))),
-            slope(xi): self._by_piece(lambda piece: piece.slope),
-            curvature(xi): self._by_piece(lambda piece: piece.curvature),
-        }
-
-    def _by_piece(self, of: Callable[[Piece], Expr]) -> Expr:
-        *others, last = self.sheet.geometry.slope.pieces
-        branches = [(_short(of(piece)), xi < piece.upper) for piece in others]
-        return Piecewise(*branches, (_short(of(last)), True))
+        return _definitions(self.sheet.geometry.slope)
 
     def lines(self, names: tuple[str, ...]) -> Iterator[str]:
         """The formulas as they are printed, and the definitions of the functions in them."""
@@ -151,6 +132,35 @@ class Integrals:
                 yield f"{text(called)} = {text(definition)}"
         if FinitePart in used:
             yield _IN_WORDS
+
+
+def _corners(slope: Slope) -> tuple[Kink, ...]:
+    return tuple(k for k in slope.kinks if k.is_corner)
+
+
+@lru_cache(maxsize=2)
+def _definitions(profile: Slope) -> Mapping[Expr, Expr]:
+    left, right = a + xi, c - xi
+    ratios = (right / left, left / right)
+    least = Min((a + x) * right, left * (c - x))
+    to_edges = [sqrt(ratio) for ratio in ratios]
+    if _corners(profile):
+        to_edges = [root_ratio.definition(*ends) for ends in ((right, left), (left, right))]
+        left, right, least = Max(0, left), Max(0, right), Max(0, least)
+    return {
+        w(xi): sqrt(left * right),
+        to_left(xi): to_edges[0],
+        to_right(xi): to_edges[1],
+        kernel(x, xi): asinh(sqrt(least / (h * Abs(x - xi)))),
+        slope(xi): _by_piece(profile, lambda piece: piece.slope),
+        curvature(xi): _by_piece(profile, lambda piece: piece.curvature),
+    }
+
+
+def _by_piece(profile: Slope, of: Callable[[Piece], Expr]) -> Expr:
+    *others, last = profile.pieces
+    branches = [(_short(of(piece)), xi < piece.upper) for piece in others]
+    return Piecewise(*branches, (_short(of(last)), True))
 
 
 def _short(expr: Expr) -> Expr:

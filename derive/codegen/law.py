@@ -22,7 +22,9 @@ _OF_SEVERAL = ("_law_state", "_law_slope", "_law_series", "_curve")
 
 PRESSURE = ("x, a, c", "Pressure at x for E* = 1.")
 STATE = ("a, c", "Load, moment, tilt and K_N for E* = 1.")
-"""Arguments of two functions, and what they return."""
+SERIES = ("a, c", "L_N for E* = 1.")
+BREAKS = ("", "Points at which the formula of the curve changes.")
+"""Arguments of functions, and what they return."""
 
 
 class LawText:
@@ -35,18 +37,27 @@ class LawText:
     @property
     def text(self) -> str:
         """The whole text."""
-        return "\n".join([*self._functions(), *self._body()])
+        body = f"_BODY = Body(__name__, {', '.join(f'_law_{name}' for name in NAMES)})"
+        return "\n".join([*self._functions(), body])
 
     def _functions(self) -> Iterator[str]:
         """Code for all functions; they call the public functions with scalars."""
-        yield from self._carried()
-        yield from self._series()
+        own = ", ".join(f"own[{i}]" for i in range(len(self.names)))
+        call = f"_pressure(x, a, c, 1.0, {own})"
+        yield from self.function("_law_pressure", *PRESSURE, [f"    return {call}"])
+        lines = [
+            f"    left, right = _K_N(a, c, 1.0, {own})",
+            f"    load, moment = _load(a, c, 1.0, {own}), _moment(a, c, 1.0, {own})",
+            f"    return load, moment, _tilt(a, c, {own}), left, right",
+        ]
+        yield from self.function("_law_state", *STATE, lines)
+        lines = [f"    left, right = _L_N(a, c, 1.0, {own})", "    return left, right"]
+        yield from self.function("_law_series", *SERIES, lines)
         yield from self._slope()
         kinks = self.sheet.frame.slope.kinks
         places = [as_float(NumPyPrinter().doprint(kink.position)) for kink in kinks]
         array = f"np.array([{', '.join(places)}])" if places else "np.empty(0)"
-        words = "Points at which the formula of the curve changes."
-        yield from self.function("_law_breaks", "", words, [f"    return {array}"])
+        yield from self.function("_law_breaks", *BREAKS, [f"    return {array}"])
 
     def function(
         self, name: str, arguments: str, words: str, lines: Iterable[str]
@@ -64,26 +75,6 @@ class LawText:
             yield f"    {', '.join(used)} = {', '.join(used.values())}"
         yield from lines
 
-    def _carried(self) -> Iterator[str]:
-        """Code for pressure and state."""
-        own = ", ".join(f"own[{i}]" for i in range(len(self.names)))
-        lines = [f"    return _pressure(x, a, c, 1.0, {own})"]
-        yield from self.function("_law_pressure", *PRESSURE, lines)
-        lines = [
-            f"    left, right = _K_N(a, c, 1.0, {own})",
-            f"    load, moment = _load(a, c, 1.0, {own}), _moment(a, c, 1.0, {own})",
-            f"    return load, moment, _tilt(a, c, {own}), left, right",
-        ]
-        yield from self.function("_law_state", *STATE, lines)
-
-    def _series(self) -> Iterator[str]:
-        own = ", ".join(f"own[{i}]" for i in range(len(self.names)))
-        lines = [
-            f"    left, right = _L_N(a, c, 1.0, {own})",
-            "    return left, right",
-        ]
-        yield from self.function("_law_series", "a, c", "L_N for E* = 1.", lines)
-
     def _slope(self) -> Iterator[str]:
         pieces = self.sheet.frame.slope.pieces
         printer, values = NumPyPrinter({x}), {}
@@ -94,9 +85,6 @@ class LawText:
         lines = [f"    {name} = {value}" for name, value in values.items()]
         lines.append(f"    return {', '.join(values)}")
         yield from self.function("_law_slope", "x", "g'(x) and g''(x).", lines)
-
-    def _body(self) -> Iterator[str]:
-        yield f"_BODY = Body(__name__, {', '.join(f'_law_{name}' for name in NAMES)})"
 
 
 def _shorter(polynomial: Expr) -> Expr:

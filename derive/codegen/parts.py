@@ -1,86 +1,72 @@
 """Functions of a piecewise polynomial body as sums over the parts of a contact.
 
 In:  a proven FormulaSheet and a Function of the contract.
-Out: the Program of that function, compared with the formulas of the sheet before it is used; Python
-     source, not yet formatted: the function, whose docstring prints what its code computes, or
-     `_angles`, which computes the steps that all these functions begin with.
+Out: the Program of that function; Python source, not yet formatted: the function, whose docstring
+     prints what its code computes, or `_angles`, which computes the steps that all these functions
+     begin with.
+
+The proof of the sheet covers the sums, too (proof/prove.py).
 """
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
-from sympy import Expr
-
 from derive.codegen.contract import CONTRACT
 from derive.codegen.function import FunctionText, checks_of, printer_of, step_lines
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program, Step
-from derive.codegen.rewrite import demand_equal
-from derive.proof.points import contacts
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
 from derive.symbols import a, c
 from derive.theory.frame import Frame
-from derive.theory.segments import Parts, definitions_of
+from derive.theory.parts import parts_of
+from derive.theory.segments import definitions_of
 
 
-def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
-    """The program of a function; it begins with the steps that all functions have in common.
-
-    fields: the name of a formula of the sheet for the name of each field
-
-    Raises NotProven if the program does not agree with the sheet.
+def parts_programs(sheet: FormulaSheet) -> Mapping[str, Program]:
+    """The program of each function; all begin with the steps that they have in common.
 
     >>> from derive.sheet.derivation import derive_sheet
     >>> from derive.body.library import load_geometry
     >>> sheet = derive_sheet(load_geometry("flat_rounded"))
-    >>> parts_program(sheet, {"": "load"}).outputs[""]
+    >>> parts_programs(sheet)["load"].outputs[""]
     E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
     """
-    program, common = _program(Parts(sheet.frame), fields, _taken(sheet)), common_steps(sheet)
-    source = {field: sheet.flat(name) for field, name in fields.items()}
-    words = f"{', '.join(fields.values())} of {sheet.geometry.name!r}, part by part"
-    demand_equal(words, program, source, contacts(sheet))
-    own = (step for step in program.steps if step not in common)
-    return replace(program, steps=(*common, *own))
+    return _programs(sheet)[0]
 
 
 def common_steps(sheet: FormulaSheet) -> tuple[Step, ...]:
     """The steps that all functions have in common, unless that is only the contact width."""
-    first, *others = (program.steps for program in _programs(sheet.frame, _taken(sheet)))
-    common = tuple(step for step in first if all(step in steps for steps in others))
-    return common if len(common) > 1 else ()
+    return _programs(sheet)[1]
 
 
-def functions_called(sheet: FormulaSheet) -> dict[Expr, Expr]:
-    """The functions that the programs call, with their definitions."""
-    programs = _programs(sheet.frame, _taken(sheet))
-    return definitions_of(
-        expr
-        for program in programs
-        for expr in (*program.outputs.values(), *(step.expr for step in program.steps))
-    )
+def _programs(sheet: FormulaSheet) -> tuple[Mapping[str, Program], tuple[Step, ...]]:
+    return _programs_of(sheet.frame, tuple(q.name for q in sheet.geometry.parameters))
 
 
 @lru_cache(maxsize=2)
-def _programs(frame: Frame, taken: tuple[str, ...]) -> tuple[Program, ...]:
-    """The programs of all functions of the contract that are sums over parts."""
-    parts = Parts(frame)
-    made = (f.formulas for f in CONTRACT if f.formulas[0] in parts.formulas)
-    return tuple(_program(parts, {name: name for name in names}, taken) for names in made)
-
-
-def _program(parts: Parts, fields: Mapping[str, str], taken: tuple[str, ...]) -> Program:
-    outputs = {field: parts.formulas[name] for field, name in fields.items()}
+def _programs_of(
+    frame: Frame, taken: tuple[str, ...]
+) -> tuple[Mapping[str, Program], tuple[Step, ...]]:
+    """The programs and their common steps; `taken` are names that no step may have."""
+    parts, made = parts_of(frame), {}
     steps = tuple(Step(d.symbol, d.expr, d.meaning) for d in parts.definitions)
-    needed = Program(outputs, steps).ordered().steps
-    return Program(outputs, tuple(step for step in steps if step in needed)).renamed(taken)
-
-
-def _taken(sheet: FormulaSheet) -> tuple[str, ...]:
-    """Names that no step may have."""
-    return tuple(q.name for q in sheet.geometry.parameters)
+    for function in (f for f in CONTRACT if f.formulas[0] in parts.formulas):
+        outputs = {field: parts.formulas[str(name)] for field, name in function.fields}
+        needed = Program(outputs, steps).ordered().steps
+        program = Program(outputs, tuple(step for step in steps if step in needed))
+        made[function.name] = program.renamed(taken)
+    common = [
+        s
+        for s in next(iter(made.values())).steps
+        if all(s in program.steps for program in made.values())
+    ]
+    common = common if len(common) > 1 else []
+    for name, program in made.items():
+        own = (step for step in program.steps if step not in common)
+        made[name] = replace(program, steps=(*common, *own))
+    return made, tuple(common)
 
 
 # ------------------------------------------------------------------ text
@@ -96,7 +82,7 @@ class SummedText(FunctionText):
     note = "  For symbols, see the module."
 
     def _made(self) -> Program:
-        return parts_program(self.sheet, {field: str(name) for field, name in self.function.fields})
+        return parts_programs(self.sheet)[self.function.name]
 
     def _steps(self, printer: NumPyPrinter) -> Iterator[str]:
         yield from summed_steps(self.sheet, self.program, printer, "exists")
@@ -151,7 +137,8 @@ def definitions_text(sheet: FormulaSheet) -> Iterator[str]:
     """The lines that define the shared symbols and the functions that the formulas call."""
     for step in common_steps(sheet):
         yield f"{step.symbol} = {text_of(step.expr)}"
-    for call, definition in functions_called(sheet).items():
+    exprs = [expr for program in parts_programs(sheet).values() for expr in program.exprs]
+    for call, definition in definitions_of(exprs).items():
         yield f"{call} = {text_of(definition)}"
 
 

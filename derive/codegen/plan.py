@@ -18,7 +18,7 @@ from derive.codegen.contract import Function
 from derive.codegen.cuts import cancels
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import P
-from derive.theory.segments import has_parts
+from derive.theory.parts import has_parts
 
 
 class Route(Enum):

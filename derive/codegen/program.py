@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from sympy import Expr, Symbol, UnevaluatedExpr
 
-from derive.theory.segments import as_it_is, written_out
+from derive.theory.segments import written_out
 
 
 class Kept(UnevaluatedExpr):
@@ -43,11 +43,12 @@ class Program:
 
     def mapped(self, change: Callable[[Expr], Expr]) -> "Program":
         """The program with `change` applied to every expression."""
-        return replace(
-            self,
-            outputs={name: change(expr) for name, expr in self.outputs.items()},
-            steps=tuple(replace(s, expr=change(s.expr)) for s in self.steps),
-        )
+        steps = tuple(replace(s, expr=change(s.expr)) for s in self.steps)
+        return replace(self.with_outputs(change), steps=steps)
+
+    def with_outputs(self, change: Callable[[Expr], Expr]) -> "Program":
+        """The program with `change` applied to its outputs alone."""
+        return replace(self, outputs={name: change(expr) for name, expr in self.outputs.items()})
 
     def with_steps(self, *steps: Step) -> "Program":
         """The program with more steps, which replace their expressions wherever these occur."""
@@ -75,7 +76,7 @@ class Program:
     def renamed(self, taken: Iterable[str]) -> "Program":
         """The program with a unique name for every step, none of them among `taken`."""
         steps = {s.symbol for s in self.steps}
-        symbols = set().union(*(e.free_symbols for e in (*self.outputs.values(), *self._right)))
+        symbols = set().union(*(expr.free_symbols for expr in self.exprs))
         used = {*taken, *(symbol.name for symbol in symbols - steps)}
         table = {}
         for step in self.steps:
@@ -90,20 +91,9 @@ class Program:
         )
 
     @property
-    def _right(self) -> list[Expr]:
-        return [step.expr for step in self.steps]
-
-    def flat(self) -> dict[str, Expr]:
-        """The outputs with every step substituted, written as by `in_mathematics`."""
-        plain = self.in_mathematics()
-        table = {s.symbol: as_it_is(s.expr) for s in plain.steps}
-
-        def written_in(expr: Expr) -> Expr:
-            while steps := expr.free_symbols & table.keys():
-                expr = expr.xreplace({symbol: table[symbol] for symbol in steps})
-            return expr
-
-        return {name: written_in(expr) for name, expr in plain.outputs.items()}
+    def exprs(self) -> list[Expr]:
+        """All expressions: the outputs, then the steps."""
+        return [*self.outputs.values(), *(step.expr for step in self.steps)]
 
     def in_mathematics(self) -> "Program":
         """The program in elementary functions, with every named function written out."""

@@ -10,11 +10,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from string import Template
 
+from derive.codegen.example import example_of
 from derive.codegen.function import (
     by_name,
     constants_lines,
     demands_of,
-    example_of,
     inside_quotes,
     meaning_of,
 )
@@ -37,8 +37,14 @@ def _words(sheet: FormulaSheet) -> Mapping[str, str]:
     """What the template says of arguments: types, meanings, how the body's own are passed on."""
     own = [q.symbol for q in sheet.geometry.parameters]
     names = ["E_star", *map(str, own)]
+    typed = ", ".join(f"{symbol}: Values" for symbol in own)
+    material = f"f: Values, E_star: Values, {typed}"
+    contacts = "first: Contact, second: Contact, dQ: Values, dsigma: Values"
     words = {
-        "typed": ", ".join(f"{symbol}: Values" for symbol in own),
+        "typed": typed,
+        "material": material,
+        "half_cycle": f"{contacts}, *, {material}",
+        "cycle": f"P: Values, M: Values, Q: Values, sigma: Values, *, {material}",
         "own": by_name(own),
         "constants": inside_quotes("\n    ".join(constants_lines(sheet, ["f", *names]))),
         "elastic": inside_quotes("\n    ".join(constants_lines(sheet, names))),
@@ -63,10 +69,14 @@ def _numbers(sheet: FormulaSheet) -> Mapping[str, str]:
     slip = [f"{2 * dQ / (math.pi * math.sqrt(h) * K):.6g}" for K in K_N]
     values = dict(load=load, moment=moment, alpha=alpha, reduced=load - dQ)
     values |= dict(threshold=8 * dQ / (math.pi * h), carried=float(f"{load:.6g}") - dQ)
+    law = ", ".join(f"{s}={float(point[s])!r}" for s in constants)
+    contact = ", ".join(map(repr, edges))
+    examples = f"Examples\n    --------\n    >>> law = dict({law})"
     return {
         **{name: f"{value:.6g}" for name, value in values.items()},
-        "law": ", ".join(f"{s}={float(point[s])!r}" for s in constants),
-        "edges": ", ".join(map(repr, edges)),
+        "examples": examples,
+        "here": f"{examples}\n    >>> here = Contact({contact}, 0.0)",
+        "edges": contact,
         "shear": repr(dQ),
         "slip": str(slip),
     }

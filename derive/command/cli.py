@@ -382,9 +382,12 @@ def edge(
     for path, option, mark in targets:
         if path is not None:
             demand_page(path, option, mark)
-    with status(f"fitting the edges of {file.name}"):
+    with status(f"reading {file.name}"):
         steps = read(file, given)
-        found = find(steps, file.name, friction, dQ, dsigma)
+    with progress(len(steps), ("fitting",)) as fitted:
+        found = find(
+            steps, file.name, friction, dQ, dsigma, lambda name: fitted(f"load step {name}", "")
+        )
     click.echo(report.as_text(found))
     for path, option, mark in targets:
         if path is not None:

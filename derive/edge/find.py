@@ -3,7 +3,7 @@
 The half-cycle runs from the first load step to the last.  The slip zones are those at its end.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import hypot, nan
 
@@ -77,15 +77,20 @@ def find(
     f: float,
     dQ: float | None = None,
     dsigma: float | None = None,
+    done: Callable[[str], None] = lambda step: None,
 ) -> Findings:
     """Evaluate a table for both edges.
 
     dQ, dsigma: the changes in the loads, if the table has no shear traction [N/m, Pa].
+    done: is told the name of each load step once its edges are fitted.
 
     Raises BadTable if the table does not describe a contact.
     """
     notes: list[str] = []
-    edges = [edge for step in steps for edge in _edges(step, shown, notes)]
+    edges: list[FittedEdge] = []
+    for step in steps:
+        edges += _edges(step, shown, notes)
+        done(step.name)
     if not edges:
         raise BadTable(
             shown,

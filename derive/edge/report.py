@@ -11,6 +11,7 @@ import numpy as np
 from derive.command.terminal import folded
 from derive.edge.find import SIDES, Findings, FittedEdge
 from derive.edge.table import Step
+from derive.sheet.picture import Line, svg
 from derive.sheet.prose import prose
 
 HEAD = ("load step", "edge", "x [mm]", "K_N [MPa/sqrt(mm)]", "L_N [MPa/mm**(3/2)]", "nodes")
@@ -41,6 +42,11 @@ table {{ border-collapse: collapse; white-space: nowrap; }}
 th, td {{ text-align: right; padding: 0.2rem 0.6rem; border-bottom: 1px solid #ccc; }}
 h1 {{ overflow-wrap: anywhere; }}
 svg {{ width: 100%; min-width: 30rem; max-width: 50rem; font: 12px sans-serif; }}
+.grid {{ stroke: #ddd; }}
+.curve {{ fill: none; stroke: #06c; stroke-width: 2; }}
+.curve-0 {{ stroke: #888; stroke-dasharray: 5 4; }}
+.curve-2 {{ fill: #000; stroke: none; }}
+.curve-3 {{ stroke: #c30; }}
 </style>
 </head>
 <body>
@@ -139,8 +145,13 @@ def as_csv(findings: Findings) -> str:
         zone = zones.get(e.side) if e.step == last else None
         row = [repr(getattr(e.pressure, name)) for name in names]
         more = [repr(getattr(zone, name)) if zone else "" for name in zone_names]
-        writer.writerow([e.step, e.side, *row, *more])
+        writer.writerow([_inert(e.step), e.side, *row, *more])
     return out.getvalue()
+
+
+def _inert(label: str) -> str:
+    """A label that a spreadsheet shows and does not compute: a formula begins with = + - or @."""
+    return f"'{label}" if label[:1] in tuple("=+-@\t\r") else label
 
 
 def as_page(findings: Findings, steps: Sequence[Step], title: str) -> str:
@@ -176,7 +187,7 @@ def _table(head: Iterable[str], rows: Iterable[Sequence[str]]) -> str:
     return f'<div class="wide"><table>{lines}</table></div>'
 
 
-WIDTH, HEIGHT, LEFT, BOTTOM, MARGIN = 640, 360, 70, 45, 15
+LEGEND = "dots: nodes; dashed line: K_N sqrt(s); blue line: K_N sqrt(s) + L_N s**(3/2)"
 
 
 def _picture(e: FittedEdge, step: Step, d: float) -> str:
@@ -184,64 +195,18 @@ def _picture(e: FittedEdge, step: Step, d: float) -> str:
     sense = 1 if e.side == SIDES[0] else -1
     s, p = sense * (step.x - e.pressure.edge), step.p
     shown = (s > 0) & (p > 0) & (s <= 4 * e.pressure.stretch)
-    s, p = 1e3 * s[shown], 1e-6 * p[shown]
+    s, p = s[shown], p[shown]
     if len(s) < 2:
         return ""
-    fine = np.geomspace(s.min() / 2, 1e3 * e.pressure.stretch, 80)
-    first = 1e-6 * e.pressure.K_N * np.sqrt(1e-3 * fine)
-    second = first + 1e-6 * e.pressure.L_N * (1e-3 * fine) ** 1.5
-    everything = np.concatenate([first, p, second[second > 0]])
-    low, high = log10(everything.min()) - 0.05, log10(everything.max()) + 0.05
-    near, far = log10(fine.min()), log10(max(s.max(), fine.max())) + 0.02
-
-    def to_x(x: float) -> float:
-        return LEFT + (log10(x) - near) / (far - near) * (WIDTH - LEFT - MARGIN)
-
-    def to_y(y: float) -> float:
-        return HEIGHT - BOTTOM - (log10(y) - low) / (high - low) * (HEIGHT - BOTTOM - MARGIN)
-
-    def curve(x: Sequence[float], y: Sequence[float], style: str) -> str:
-        points = " ".join(
-            f"{to_x(a):.1f},{to_y(b):.1f}" for a, b in zip(x, y, strict=True) if b > 0
-        )
-        return f'<polyline points="{points}" fill="none" {style}/>'
-
-    parts = ['<div class="wide">']
-    parts.append(
-        f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="pressure at an edge">'
-    )
-    base = HEIGHT - BOTTOM
-    for x in _ticks(near, far):
-        at = f"{to_x(x):.1f}"
-        parts.append(f'<path d="M{at} {MARGIN} V{base}" stroke="#ddd"/>')
-        parts.append(f'<text x="{at}" y="{base + 16}" text-anchor="middle">{x:g}</text>')
-    for y in _ticks(low, high):
-        parts.append(f'<path d="M{LEFT} {to_y(y):.1f} H{WIDTH - MARGIN}" stroke="#ddd"/>')
-        parts.append(f'<text x="{LEFT - 6}" y="{to_y(y) + 4:.1f}" text-anchor="end">{y:g}</text>')
-    parts.append(curve(list(fine), list(first), 'stroke="#888" stroke-dasharray="5 4"'))
-    parts.append(curve(list(fine), list(second), 'stroke="#06c" stroke-width="2"'))
-    parts += [
-        f'<circle cx="{to_x(a):.1f}" cy="{to_y(b):.1f}" r="3" fill="#000"/>'
-        for a, b in zip(s, p, strict=True)
-    ]
-    if d > 0 and near < log10(1e3 * d) < far:
-        x = to_x(1e3 * d)
-        parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{MARGIN}" y2="{base}" stroke="#c30"/>')
-        parts.append(f'<text x="{x + 4:.1f}" y="{MARGIN + 12}" fill="#c30">slip zone</text>')
-    below = f'x="{(LEFT + WIDTH) / 2}" y="{HEIGHT - 8}" text-anchor="middle"'
-    parts.append(f"<text {below}>distance from the edge [mm]</text>")
-    upright = f'transform="translate(16 {HEIGHT / 2}) rotate(-90)" text-anchor="middle"'
-    parts.append(f"<text {upright}>pressure [MPa]</text>")
-    parts.append("</svg></div>")
-    legend = "dots: nodes; dashed line: K_N sqrt(s); blue line: K_N sqrt(s) + L_N s**(3/2)"
-    return "\n".join(parts) + f"\n<p>{prose(legend)}</p>"
-
-
-def _ticks(low: float, high: float) -> list[float]:
-    """Return 1, 2 and 5 times each power of ten between two exponents."""
-    return [
-        step * 10.0**power
-        for power in range(floor(low) - 1, floor(high) + 1)
-        for step in (1, 2, 5)
-        if low <= log10(step * 10.0**power) <= high
-    ]
+    fine = np.geomspace(s.min() / 2, e.pressure.stretch, 80)
+    first = e.pressure.K_N * np.sqrt(fine)
+    second = first + e.pressure.L_N * fine**1.5
+    above = second > 0
+    curves = [("first", fine, first), ("both", fine[above], second[above]), ("nodes", s, p)]
+    if fine[0] < d < s.max():
+        heights = np.array([min(p.min(), first.min()), max(p.max(), first.max())])
+        curves.append(("end of the slip zone", np.full(2, d), heights))
+    lines = [Line(name, 1e3 * x, 1e-6 * y, name == "nodes") for name, x, y in curves]
+    labels = "pressure at an edge", "distance from the edge [mm]", "pressure [MPa]"
+    legend = LEGEND + ("; red line: end of the slip zone" if len(lines) > 3 else "")
+    return f'<div class="wide">{svg(*labels, lines, is_log=True)}</div>\n<p>{prose(legend)}</p>'

@@ -2,7 +2,6 @@
 
     module    input                              output
     -------   --------------------------------   -----------------------------------------------
-    picture   curves                             an SVG picture
     curves    a sheet, the text of its module    g(x), and the pressure of some contacts
     page      a sheet, its BuiltBody                  one page; the index of several pages
 

@@ -13,12 +13,12 @@ from markupsafe import Markup
 from mpmath import mpf
 
 from derive.body.compiled import compiled
-from derive.codegen.function import example_of
+from derive.codegen.example import example_of
 from derive.codegen.trial import imported
-from derive.handbook.picture import Line, sketch, svg
 from derive.proof.points import holds
 from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
+from derive.sheet.picture import Line, sketch, svg
 from derive.symbols import E_star, a, c, x
 
 SAMPLES = 241
@@ -66,8 +66,8 @@ def pictures(sheet: FormulaSheet, body: BuiltBody) -> Pictures:
     values = ", ".join(f"{name} = {value:g}" for name, value in law.items())
     largest = max(float(np.median(line.y)) for line in lines)
     return Pictures(
-        svg("profile g(x)", "x/a₀", "g/a₀", [_profile(sheet, reach)]),
-        svg("contact pressure p(x)", "x/a₀", "2 a₀ p/P", lines, top=4 * largest),
+        Markup(svg("profile g(x)", "x/a₀", "g/a₀", [_profile(sheet, reach)])),
+        Markup(svg("contact pressure p(x)", "x/a₀", "2 a₀ p/P", lines, top=4 * largest)),
         tuple(line.label for line in lines),
         values,
         bool(corners),
@@ -76,7 +76,7 @@ def pictures(sheet: FormulaSheet, body: BuiltBody) -> Pictures:
 
 def profile(sheet: FormulaSheet) -> Markup:
     """A sketch of the profile alone, for an index."""
-    return sketch(f"profile of {sheet.geometry.name}", _profile(sheet, SKETCHED))
+    return Markup(sketch(f"profile of {sheet.geometry.name}", _profile(sheet, SKETCHED)))
 
 
 def drawn_at(sheet: FormulaSheet) -> tuple[float, dict[str, float]]:

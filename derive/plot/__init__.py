@@ -6,8 +6,8 @@
     measure     the units of axes: a symbol and its unit, or a ratio
     given       checks of the input, which raise one clear error
     tractions   pressure; shear traction and its change over a half-cycle; slip, frictional work
-    zones       stick and slip over a cycle, or against a parameter
-    histories   any load history: stick and slip over time, shear, slip, frictional work, animation
+    zones       maps of stick and slip over a cycle, over any history, or against a parameter
+    histories   any load history: shear, slip, frictional work, animation
     live        contact, tractions and slip zones of a cycle, controlled by sliders in a notebook
     series      errors of the series of the slip zones, against the size of the zones
 
@@ -23,13 +23,13 @@ from derive.command.errors import MissingLibrary
 if find_spec("matplotlib") is None:
     raise MissingLibrary("matplotlib", "drawing", "plot")
 
-from derive.plot.histories import film, friction_work, instants, slip_map, work
+from derive.plot.histories import film, friction_work, instants, work
 from derive.plot.live import Live, Loads, sliders
 from derive.plot.measure import Measure, over, unit
 from derive.plot.series import errors, relative_errors
 from derive.plot.style import COLOURS, LINES, save, style, subplots
 from derive.plot.tractions import pressures, shear, slip, tractions
-from derive.plot.zones import boundaries, key, stick_slip, sweep
+from derive.plot.zones import boundaries, key, slip_map, stick_slip, sweep
 
 __all__ = [
     "COLOURS",

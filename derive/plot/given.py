@@ -56,9 +56,14 @@ def demand_contacts(states: Sequence[Any], labels: Sequence[str]) -> None:
         raise ValueError("`states` is empty; give a list of at least one Contact")
     for i, state in enumerate(states):
         demand_contact(f"states[{i}]", state)
-    if labels and len(labels) != len(states):
+    demand_labels(labels, len(states), "states")
+
+
+def demand_labels(labels: Sequence[str], count: int, what: str) -> None:
+    """Demand one label for each, or none."""
+    if labels and len(labels) != count:
         raise ValueError(
-            f"{len(labels)} labels are given for {len(states)} states; give one for each, or none"
+            f"{len(labels)} labels are given for {count} {what}; give one for each, or none"
         )
 
 
@@ -151,3 +156,91 @@ def demand_fitting(shape: tuple[int, ...], **given: Array) -> None:
                 f"{name} has the shape {np.shape(value)}, but there are {shape[0]} values along "
                 "the axis; give one number, or one for each of these values"
             )
+
+
+# ------------------------------------------------------------------ histories
+
+ROUNDING = 1e-6
+"""Allowance for rounding: of an edge relative to the contact width, of shear relative to f p."""
+
+SHORT = 1e-3
+"""If shear falls short of f p by more than this fraction wherever the surfaces slip, it does not
+belong to this f p."""
+
+
+def positions_of(history: Any, x: Array) -> Array:
+    """The positions x; demand one history with shear and slip at these positions."""
+    if not (hasattr(history, "slip") and hasattr(history, "intervals")):
+        raise ValueError(
+            f"history is {history!r:.60}, which is not a History; give a result of `history`"
+        )
+    if np.ndim(history.a) != 1:
+        raise ValueError(
+            f"history has the shape {np.shape(history.a)}, but only one history can be drawn; "
+            "select one of them, for example by History(*(v[0] for v in history))"
+        )
+    if not np.any(np.isfinite(history.a)):
+        raise ValueError("history has no contact at any instant, so that there is nothing to draw")
+    demand_row("x", x)
+    if np.shape(history.slip) != (np.size(history.a), np.size(x)):
+        shape = np.shape(history.slip)
+        given = "no slip" if history.slip is None else f"slip of shape {shape}"
+        raise ValueError(
+            f"history contains {given}, but slip at the {np.size(x)} positions of x is needed; "
+            "give the same x to `history`"
+        )
+    x = np.asarray(x, dtype=float)
+    demand_increasing("x", x, "sort x, for example by np.unique(x), and give it to `history` again")
+    _demand_same(history, x)
+    return x
+
+
+def _demand_same(history: Any, x: Array) -> None:
+    """Demand no shear outside the contact, and slip at all points in it if there is any."""
+    a, c = history.a[:, None], history.c[:, None]
+    depth = np.minimum(x + a, c - x) / (a + c)
+    shear = (depth < -ROUNDING) & (np.abs(history.q) > 0)
+    known = np.isfinite(history.slip)
+    wrong = shear | ((depth > ROUNDING) & ~known & np.any(known, axis=1, keepdims=True))
+    for i, j in np.argwhere(wrong)[:1]:
+        where, what = ("outside", "shear") if shear[i, j] else ("inside", "no slip")
+        raise ValueError(
+            f"x is not the x of history: at instant {i}, {x[j]:g} m is {where} the contact, but "
+            f"history contains {what} there; give the same x to `history`"
+        )
+
+
+def demand_friction(history: Any, x: Array, bound: Array) -> None:
+    """Demand that shear exceed f p nowhere, and reach it at a point that slips, if there is any.
+
+    All points outside [-m, n] by more than the error slip; on elements, a single one of them may
+    stick.
+    """
+    a, c, m, n, error = (
+        v[:, None] for v in (history.a, history.c, history.m, history.n, history.error)
+    )
+    shear, finite = np.abs(history.q), np.isfinite(bound)
+    most = bound + ROUNDING * (bound + np.max(bound, initial=0.0, where=finite))
+    slips = np.maximum(-m - x, x - n) > (error + ROUNDING) * (a + c)
+    slips &= (np.minimum(x + a, c - x) > ROUNDING * (a + c)) & finite
+    wrong = np.isfinite(shear) & ~(shear <= most)
+    if np.all(shear[slips] < (1 - SHORT) * bound[slips]):
+        wrong |= slips
+    for i, j in np.argwhere(wrong)[:1]:
+        must = "must equal f p where the surfaces slip" if slips[i, j] else "must not exceed f p"
+        raise ValueError(
+            f"history does not fit this body, f and constants: at instant {i} and x = {x[j]:g} m, "
+            f"|q| is {shear[i, j]:g} Pa and f p is {bound[i, j]:g} Pa, but |q| {must}; give the "
+            "body, f, constants and x that were given to `history`"
+        )
+
+
+def demand_indices(at: Sequence[int], count: int) -> None:
+    """Demand a sequence of at least one index of an instant."""
+    found = np.asarray(at, dtype=object)
+    whole = all(isinstance(i, int | np.integer) and not isinstance(i, bool) for i in found.flat)
+    if found.ndim != 1 or not found.size or not (whole and all(-count <= i < count for i in found)):
+        raise ValueError(
+            f"`at` is {at!r:.60}; give a list of at least one index from {-count} to {count - 1}, "
+            f"because history has {count} instants"
+        )

@@ -13,13 +13,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from derive.command.errors import MissingLibrary
-from derive.plot.measure import Array, unit
-from derive.plot.style import COLOURS, FORWARD, REVERSE, style
-from derive.plot.tractions import peak
-from derive.plot.zones import regime_in_words, senses
-
-PLACES = 241
-"""Number of points along the contact, small enough to draw without delay."""
+from derive.plot.measure import Array, Measure, unit
+from derive.plot.style import style
+from derive.plot.tractions import peak, tractions
+from derive.plot.zones import regime_in_words
 
 STEPS = 200
 """Number of steps of a slider from zero to the largest load."""
@@ -47,6 +44,10 @@ class Loads(NamedTuple):
     dQ: float
     dsigma: float
     f: float
+
+
+SCALES = {"P": "N/m", "M": "N", "dQ": "N/m", "dsigma": "Pa", "f": "-"}
+"""The SI unit of each load."""
 
 
 class Live:
@@ -84,29 +85,10 @@ class Live:
         self.top = 1.6 * largest.P / float(np.nanmin(farthest.a + farthest.c))
         self.length, self.stress = unit(self.reach, "m"), unit(self.top, "Pa")
         with style():
-            self.figure = Figure(figsize=(8.4, 4.6), dpi=200)
-            # The layout is fixed, because computing a new one takes longer than drawing the axes.
-            self.figure.set_layout_engine("none")
-            self.canvas = FigureCanvasAgg(self.figure)
-            self.below = self.figure.add_axes((0.09, 0.11, 0.89, 0.42))
-            self.above = self.figure.add_axes((0.09, 0.56, 0.89, 0.42), sharex=self.below)
-            self.above.tick_params(labelbottom=False)
-            self._prepare()
-
-    def _prepare(self) -> None:
-        """Create the artists; `show` sets their data and the limits of the axes."""
-        self.above.set(ylabel=self.stress.label("p"))
-        self.below.set(xlabel=self.length.label("x"), ylabel=self.stress.label(r"\Delta q"))
-        (self.pressure,) = self.above.plot([], [], color=COLOURS["blue"])
-        grey: dict[str, Any] = {"color": "#888888", "linewidth": 1}
-        (self.upper,) = self.below.plot([], [], label=r"$\pm 2 f p$", **grey)
-        (self.lower,) = self.below.plot([], [], **grey)
-        red: dict[str, Any] = {"color": COLOURS["vermilion"], "linewidth": 2}
-        (self.shear,) = self.below.plot([], [], label=r"$\Delta q$", **red)
-        self.below.legend(loc="lower right", ncols=2)
-        self.spans = [
-            axes.axvspan(0, 0, linewidth=0) for axes in (self.above, self.below) for _ in range(2)
-        ]
+            self.figure = Figure(figsize=(8.4, 4.8), dpi=200)
+            self.figure.set_layout_engine("none")  # because computing a new layout takes long
+            place = {"left": 0.09, "right": 0.98, "bottom": 0.11, "top": 0.93, "hspace": 0.25}
+            self.axes = self.figure.subplots(2, 1, sharex=True, gridspec_kw=place)
 
     def show(self, loads: Loads) -> str:
         """Draw the cycle under these loads.
@@ -121,69 +103,45 @@ class Live:
         str
             A description of the cycle in one line.
         """
-        state = self.body.contact(loads.P, loads.M, **self.constants)
-        law = {"f": loads.f, **self.constants}
-        zone = self.body.stick_zone(state, state, loads.dQ, loads.dsigma, **law)
-        angle = np.linspace(0, np.pi, PLACES + 1)
-        x = (state.c - state.a) / 2 - (state.a + state.c) / 2 * np.cos(angle)
-        p = self.body.pressure(x, state.a, state.c, **self.constants)
-        dq = self.body.shear_change(x, state, state, loads.dQ, loads.dsigma, **law)
-        for line, values in (
-            (self.pressure, p),
-            (self.upper, 2 * loads.f * p),
-            (self.lower, -2 * loads.f * p),
-            (self.shear, dq),
-        ):
-            line.set_data(self.length(x), self.stress(values))
-        self._hold(state, p, loads.f)
-        self._shade(state, zone, loads.dsigma)
-        return self._described(state, zone, loads)
+        for axes in self.axes:
+            axes.clear()
+        P, M, dQ, dsigma, f = loads
+        state = self.body.contact(P, M, **self.constants)
+        if not np.isfinite(state.a):
+            return "no contact: the body cannot carry these loads"
+        law: Any = {"f": f, **self.constants}
+        units: Any = {"length": self.length, "stress": self.stress}
+        tractions(self.body, state, state, dQ, dsigma, axes=self.axes, **units, **law)
+        self._set_limits(state, f)
+        zone = self.body.stick_zone(state, state, dQ, dsigma, **law)
+        threshold = self.body.tension_threshold(state, state, dQ, **law).upper
+        return self._described(state, zone, threshold)
 
-    def _hold(self, state: Any, p: Array, f: float) -> None:
+    def _set_limits(self, state: Any, f: float) -> None:
         """Set the limits of the axes to those of the largest loads.
 
         They are moved or widened if the contact is outside them.  The peak at a corner is cut off.
         """
-        low, high = -self.reach, self.reach
-        if np.isfinite(state.a):
-            margin = self.reach / 26
-            left, right = -float(state.a) - margin, float(state.c) + margin
-            wide = max(2 * self.reach, right - left)
-            low = min(max(low, right - wide), left)
-            high = low + wide
-        height = 1.08 * peak(p)
-        upper, lower = max(self.top, height), max(self.top, 2 * f * height)
-        self.above.set_ylim(0, float(self.stress(upper)))
-        self.below.set_ylim(*(sign * float(self.stress(lower)) for sign in (-1, 1)))
-        self.below.set_xlim(float(self.length(low)), float(self.length(high)))
+        margin = self.reach / 26
+        left, right = -float(state.a) - margin, float(state.c) + margin
+        wide = max(2 * self.reach, right - left)
+        low = min(max(-self.reach, right - wide), left)
+        above, below = self.axes
+        height, top = 1.08 * peak(above.get_lines()[-1].get_ydata()), float(self.stress(self.top))
+        above.set_ylim(0, max(top, height))
+        below.set_ylim(-max(top, 2 * f * height), max(top, 2 * f * height))
+        below.set_xlim(float(self.length(low)), float(self.length(low + wide)))
 
-    def _shade(self, state: Any, zone: Any, dsigma: float) -> None:
-        senses_of_slip = senses(zone, dsigma)
-        zones = ((-state.a, -zone.m), (zone.n, state.c))
-        for i, span in enumerate(self.spans):
-            (start, end), sense = zones[i % 2], senses_of_slip[i % 2]
-            known = bool(sense != 0) and np.isfinite(zone.m)
-            span.set_visible(known)
-            if known:
-                span.set_x(float(self.length(start)))
-                span.set_width(float(self.length(end - start)))
-                span.set_color(FORWARD if sense > 0 else REVERSE)
-
-    def _described(self, state: Any, zone: Any, loads: Loads) -> str:
+    def _described(self, state: Any, zone: Any, threshold: Array) -> str:
         def lengths(*values: Array) -> str:
             return ", ".join(f"{float(self.length(value)):.4f}" for value in values)
 
-        if not np.isfinite(state.a):
-            return "no contact: the body cannot carry these loads"
-        regime = regime_in_words(self.body, zone)
-        name = self.length.name
+        regime, name = regime_in_words(self.body, zone), self.length.name
         parts = [f"{regime}: contact [{lengths(-state.a, state.c)}] {name}"]
         parts.append(f"tilt {1e3 * float(state.alpha):.3f} mrad")
         if np.isfinite(zone.m):
             parts.append(f"stick [{lengths(-zone.m, zone.n)}] {name}")
             parts.append(f"slip {lengths(state.a - zone.m)} and {lengths(state.c - zone.n)} {name}")
-        law = {"f": loads.f, **self.constants}
-        threshold = self.body.tension_threshold(state, state, loads.dQ, **law).upper
         if np.isfinite(threshold):
             moderate = unit(threshold, "Pa")
             parts.append(f"tension is moderate up to {moderate(threshold):.4g} {moderate.name}")
@@ -199,7 +157,7 @@ class Live:
         """
         target = BytesIO()
         with style():
-            self.canvas.print_png(target, pil_kwargs={"compress_level": 1})  # type: ignore[no-untyped-call]
+            FigureCanvasAgg(self.figure).print_png(target)  # type: ignore[no-untyped-call]
         return target.getvalue()
 
 
@@ -212,18 +170,6 @@ def _demand_largest(largest: Loads) -> None:
         if not right or (positive and value == 0):
             raise ValueError(
                 f"largest.{name} is {value}, but the end of a slider must be {allowed}; give one"
-            )
-
-
-def _demand_start(start: Loads, largest: Loads) -> None:
-    """Demand starting values between the ends of the sliders."""
-    for name, value in start._asdict().items():
-        most = getattr(largest, name)
-        least = -most if name in ("M", "dsigma") else 0
-        if np.ndim(value) or not least <= value <= most:
-            raise ValueError(
-                f"start.{name} is {value}, but its slider covers {least:g} to {most:g}; give a "
-                f"number in this range, or increase largest.{name}"
             )
 
 
@@ -258,41 +204,37 @@ def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) 
     import ipywidgets
 
     live = Live(body, largest, **constants)
-    _demand_start(start, largest)
-    picture = ipywidgets.Image(format="png", width=840)
-    line = ipywidgets.HTML()
-    scales = {"P": "N/m", "M": "N", "dQ": "N/m", "dsigma": "Pa", "f": ""}
-    controls = {}
-    for name, of in scales.items():
-        most, value = getattr(largest, name), getattr(start, name)
-        measure = unit(most, of) if of else None
-        size, label = (measure.size, f"{name} [{measure.name}]") if measure else (1.0, name)
-        least = {"M": -most, "dsigma": -most, "dQ": 0.0}.get(name, most / STEPS)
-        controls[name] = (
-            ipywidgets.FloatSlider(
-                value=value / size,
-                min=least / size,
-                max=most / size,
-                step=most / size / STEPS,
-                description=label,
-                readout_format=".4g",
-                continuous_update=True,
-                style={"description_width": "100px"},
-                layout={"width": "400px"},
-            ),
-            size,
+    picture, line = ipywidgets.Image(format="png", width=840), ipywidgets.HTML()
+    controls, sizes = [], []
+    for (name, of), most, value in zip(SCALES.items(), largest, start, strict=True):
+        least = -most if name in ("M", "dsigma") else 0.0
+        if np.ndim(value) or not least <= value <= most:
+            raise ValueError(
+                f"start.{name} is {value}, but its slider covers {least:g} to {most:g}; give a "
+                f"number in this range, or increase largest.{name}"
+            )
+        least = most / STEPS if name in ("P", "f") else least  # these are never zero
+        measure = unit(most, of) if of != "-" else Measure(1.0, of)
+        sizes.append(measure.size)
+        slider = ipywidgets.FloatSlider(
+            value=value / measure.size,
+            min=least / measure.size,
+            max=most / measure.size,
+            step=most / measure.size / STEPS,
+            description=f"{name} [{measure.name}]",
+            readout_format=".4g",
+            style={"description_width": "100px"},
+            layout={"width": "400px"},
         )
+        controls.append(slider)
 
     def follow(_: Any = None) -> None:
-        line.value = live.show(
-            Loads(**{name: slider.value * size for name, (slider, size) in controls.items()})
-        )
+        values = (slider.value * size for slider, size in zip(controls, sizes, strict=True))
+        line.value = live.show(Loads(*values))
         picture.value = live.png()
 
-    for slider, _ in controls.values():
+    for slider in controls:
         slider.observe(follow, names="value")
     follow()
-    rows = ipywidgets.HBox(
-        [slider for slider, _ in controls.values()], layout={"flex_flow": "row wrap"}
-    )
-    return ipywidgets.VBox([rows, picture, line])
+    row = ipywidgets.HBox(controls, layout={"flex_flow": "row wrap"})
+    return ipywidgets.VBox([row, picture, line])

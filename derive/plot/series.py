@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from derive.plot.measure import Array
-from derive.plot.style import LINES, style, subplots
+from derive.plot.style import LINES, canvas
 
 
 class Errors(NamedTuple):
@@ -93,35 +93,17 @@ def errors(
 
     Parameters
     ----------
-    body : module
-        A generated module, such as generated.wedge.
-    state : Contact
-        The contact under the normal loads, as returned by `contact`.
-    dQ, dsigma : array_like
-        Changes in the shear load [N/m] and in the tension [Pa] over the half-cycle.
-    f : float
-        Coefficient of friction [-].
-    orders : sequence of int, optional
-        Orders of the series.
+    body, state, dQ, dsigma, f, orders, **constants : as in `relative_errors`
     axes : Axes, optional
         The Axes to draw into; new ones by default.
-    **constants : float
-        E_star [Pa] and the parameters of the body.
 
     Returns
     -------
     Axes
         The Axes with the picture.
-
-    Raises
-    ------
-    TypeError, ValueError
-        As in `relative_errors`.
     """
     computed = relative_errors(body, state, dQ, dsigma, f=f, orders=orders, **constants)
-    with style():
-        if axes is None:
-            _, axes = subplots(size=(5.6, 3.8))
+    with canvas(axes, size=(5.6, 3.8)) as axes:
         for order, relative in computed.relative.items():
             for edge, marker, fill in ((0, "o", "full"), (1, "s", "none")):
                 look = {**LINES[f"order {order}"], "linewidth": 1.2}

@@ -7,11 +7,14 @@ Lines with different meanings also differ in their dashes.
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
+
+A = TypeVar("A")
+"""Axes, or a sequence of Axes."""
 
 COLOURS = {
     "black": "#000000",
@@ -122,6 +125,13 @@ def subplots(
         for each, title in zip(figure.axes, titles, strict=False):
             each.set_title(title)
     return figure, axes
+
+
+@contextmanager
+def canvas(axes: A | None, rows: int = 1, size: tuple[float, float] | None = None) -> Iterator[A]:
+    """Draw inside this context, in this style: into the Axes of the caller, or into new ones."""
+    with style():
+        yield subplots(rows, 1, size=size, sharex=True)[1] if axes is None else axes
 
 
 def save(figure: Figure, path: str | Path) -> None:

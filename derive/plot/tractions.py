@@ -14,7 +14,7 @@ from derive.plot.given import (
     demand_signs,
 )
 from derive.plot.measure import Array, Measure, unit
-from derive.plot.style import COLOURS, style, subplots
+from derive.plot.style import COLOURS, canvas
 from derive.plot.zones import AREAS, MIXED, regime_in_words, senses
 
 SAMPLES = 401
@@ -84,9 +84,7 @@ def pressures(
         lines.append((x, body.pressure(x, state.a, state.c, **constants)))
     length = length or unit(np.concatenate([x for x, _ in lines]), "m")
     stress = stress or unit(np.concatenate([typical(p) for _, p in lines]), "Pa")
-    with style():
-        if axes is None:
-            _, axes = subplots()
+    with canvas(axes) as axes:
         for i, (x, p) in enumerate(lines):
             axes.plot(length(x), stress(p), label=labels[i] if labels else None)
         axes.set(xlabel=length.label("x"), ylabel=stress.label("p"))
@@ -140,8 +138,7 @@ def tractions(
 
     Parameters
     ----------
-    body : module
-        A generated module, such as generated.wedge.
+    body : as in `pressures`
     first, second : Contact
         Contacts at the start and at the end of the half-cycle that raises the shear load.
     dQ, dsigma : float
@@ -152,12 +149,7 @@ def tractions(
         Whether to compute stick zones where slip reverses; see `stick_zone`.
     axes : sequence of two Axes, optional
         The Axes to draw into; new ones by default.
-    length : Measure, optional
-        The unit of x; a suitable one by default.
-    stress : Measure, optional
-        The unit of pressure and shear traction; a suitable one by default.
-    **constants : float
-        E_star [Pa] and the parameters of the body.
+    length, stress, **constants : as in `pressures`
 
     Returns
     -------
@@ -176,9 +168,7 @@ def tractions(
     shear = body.shear_change(x, first, second, dQ, dsigma, **law)
     zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
     length, stress = length or unit(x, "m"), stress or unit(typical(np.append(p1, p2)), "Pa")
-    with style():
-        if axes is None:
-            _, axes = subplots(2, 1, size=(5.6, 5.0), sharex=True)
+    with canvas(axes, 2, size=(5.6, 5.0)) as axes:
         above, below = axes
         same = bool(np.all(np.isclose(p1, p2, rtol=1e-12, atol=0) | (p1 == p2)))
         if not same:
@@ -226,26 +216,14 @@ def shear(
 
     Parameters
     ----------
-    body : module
-        A generated module, such as generated.wedge.
     contact : Contact
         The contact under the normal loads, as returned by `contact`.
     Q, sigma : float
         Shear load [N/m] and tension [Pa] at the upper end, reached first, starting from zero.
-    dQ, dsigma : float
-        Changes in both over the half-cycle [N/m, Pa].
-    f : float
-        Coefficient of friction [-].
     between : int, optional
         Number of states that are drawn between the upper and the lower end.
-    axes : Axes, optional
-        The Axes to draw into; new ones by default.
-    length : Measure, optional
-        The unit of x; a suitable one by default.
-    stress : Measure, optional
-        The unit of the shear traction; a suitable one by default.
-    **constants : float
-        E_star [Pa] and the parameters of the body.
+    body, dQ, dsigma, f : as in `tractions`
+    axes, length, stress, **constants : as in `pressures`
 
     Returns
     -------
@@ -276,9 +254,7 @@ def shear(
             f"dsigma = {dsigma:g}: {_why_unknown(body, contact, changes, law)}"
         )
     length, stress = length or unit(x, "m"), stress or unit(typical(bound), "Pa")
-    with style():
-        if axes is None:
-            _, axes = subplots()
+    with canvas(axes) as axes:
         band(axes, length(x), stress(bound), r"$\pm f\,p$")
         for inner in q[1:-1]:
             axes.plot(length(x), stress(inner), color=COLOURS["sky"], linewidth=0.8)
@@ -393,32 +369,12 @@ def slip(
 
     Parameters
     ----------
-    body : module
-        A generated module, such as generated.wedge.
-    first, second : Contact
-        Contacts at the start and at the end of the half-cycle that raises the shear load.
-    dQ, dsigma : float
-        Changes in the shear load [N/m] and in the tension [Pa] over this half-cycle.
-    f : float
-        Coefficient of friction [-].
-    mixed : bool, optional
-        Whether to compute stick zones where slip reverses; see `stick_zone`.
-    axes : sequence of two Axes, optional
-        The Axes to draw into; new ones by default.
-    length : Measure, optional
-        The unit of x; a suitable one by default.
-    **constants : float
-        E_star [Pa] and the parameters of the body.
+    body, first, second, dQ, dsigma, f, mixed, axes, length, **constants : as in `tractions`
 
     Returns
     -------
     sequence of Axes
         The two Axes with the pictures.
-
-    Raises
-    ------
-    ValueError
-        If a contact is not one of this body with these constants, dQ < 0, or f is not positive.
     """
     _demand_half_cycle(body, first, second, dQ, dsigma, f, constants)
     law = {"f": f, **constants}
@@ -431,9 +387,7 @@ def slip(
     mean = np.where(slipped == 0, 0.0, (p1 + p2) / 2)
     work = f * np.where(mean == np.inf, np.nan, mean) * slipped
     length, depth, joule = length or unit(x, "m"), unit(slipped, "m"), unit(work, "J/m²")
-    with style():
-        if axes is None:
-            _, axes = subplots(2, 1, size=(5.6, 4.6), sharex=True)
+    with canvas(axes, 2, size=(5.6, 4.6)) as axes:
         for each, values, colour in zip(
             axes, (depth(slipped), joule(work)), ("blue", "vermilion"), strict=True
         ):

@@ -1,4 +1,4 @@
-"""Maps of stick and slip, with position against time or against a parameter."""
+"""Maps of stick and slip: position against time, in a cycle or any history, or a parameter."""
 
 from collections.abc import Iterator
 from math import ceil
@@ -7,13 +7,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 
-from derive.plot.given import demand_fitting, demand_row, times
+from derive.plot.given import demand_fitting, demand_row, positions_of, times
 from derive.plot.measure import Array, Measure, unit
-from derive.plot.style import FORWARD, LINES, REVERSE, STICK, style, subplots
+from derive.plot.style import FORWARD, LINES, REVERSE, STICK, canvas, style
 
 MODERATE, LARGE, MIXED = 1, 2, 3
 """The codes of `Regime` in every generated module."""
+
+STILL = 1e-9
+"""Slip below this fraction of the largest slip is treated as zero."""
 
 
 def senses(zone: Any, dsigma: Array) -> tuple[Array, Array]:
@@ -108,12 +112,7 @@ def sweep(
         direction of slip at each edge.
     label : str, optional
         The label of the axis of the parameter.
-    axes : Axes, optional
-        The Axes to draw into; new ones by default.
-    length : Measure, optional
-        The unit of x; a suitable one by default.
-    legend : bool, optional
-        Whether to draw a legend.
+    axes, length, legend : as in `stick_slip`
 
     Returns
     -------
@@ -158,6 +157,83 @@ def _demand_tension(zone: Any, dsigma: Array) -> None:
         )
 
 
+def slip_map(
+    history: Any,
+    x: Array,
+    time: Array | None = None,
+    *,
+    axes: Axes | None = None,
+    length: Measure | None = None,
+    legend: bool = True,
+) -> Axes:
+    """Draw a map of stick and of the direction of slip, with position over time.
+
+    Each interval between two instants is coloured by its slip, so that any number of stick zones
+    can be seen.
+
+    Parameters
+    ----------
+    history : History
+        A result of `history` of a generated module, for one history.
+    x : array_like, shape (n,)
+        The positions that were given to `history` [m], which must increase; about two hundred
+        make a smooth map.
+    time : array_like, optional
+        The time of each instant, which must increase; 0, 1, 2, ... by default.
+    axes, length, legend : as in `stick_slip`
+
+    Returns
+    -------
+    Axes
+        The Axes with the picture.
+
+    Raises
+    ------
+    ValueError
+        If the history does not fit x, has fewer than two instants, or has no contact.
+    """
+    x, at = positions_of(history, x), times(time, np.arange(np.size(history.a), dtype=float))
+    if at.size < 2:
+        raise ValueError(
+            "history has one instant, but a map shows the slip between instants; give a history "
+            "of at least two instants"
+        )
+    length = length or unit(np.append(history.a, history.c), "m")
+    kinds = kinds_of_slip(history)
+    touching = np.isfinite(history.a)
+    unknown = touching & ~np.any(np.isfinite(history.slip), axis=1)
+    kinds = np.ma.masked_array(kinds, np.isnan(kinds) | ~touching[1:, None])
+    edges = np.concatenate([[x[0]], (x[1:] + x[:-1]) / 2, [x[-1]]])
+    low, high = -length(history.a), length(history.c)
+    least, greatest = float(np.nanmin(low)), float(np.nanmax(high))
+    margin = 0.03 * (greatest - least)
+    with canvas(axes, size=(5.6, 3.6)) as axes:
+        colours = ListedColormap([REVERSE, STICK, FORWARD])
+        look: dict[str, Any] = {"cmap": colours, "vmin": -1.5, "vmax": 1.5, "rasterized": True}
+        axes.pcolormesh(at, length(edges), kinds.T, zorder=0.5, **look)
+        for edge, beyond in ((low, least - margin), (high, greatest + margin)):
+            axes.fill_between(at, edge, beyond, color="white", linewidth=0, zorder=0.6)
+        for name, sense in (("stick", 0), ("forward slip", 1), ("reverse slip", -1)):
+            if np.any(kinds.compressed() == sense):
+                axes.fill_between([], [], [], label=name, **AREAS[name])
+        if np.any(unknown):
+            look = {"where": widened(unknown), "label": "not known", **AREAS["not known"]}
+            axes.fill_between(at, low, high, zorder=0.55, **look)
+        axes.set(
+            xlabel="instant" if time is None else "$t$", ylim=(least - margin, greatest + margin)
+        )
+        _finish(axes, at, (low, high), length, legend)
+    return axes
+
+
+def kinds_of_slip(history: Any) -> Array:
+    """At each position in each interval between two instants: +1 forward slip, -1 reverse slip,
+    0 stick, NaN if it is not known."""
+    step = np.diff(history.slip, axis=0)
+    most = np.max(np.abs(step), initial=0.0, where=np.isfinite(step))
+    return np.where(np.abs(step) > STILL * most, np.sign(step), 0.0 * step)
+
+
 class _Zones(NamedTuple):
     """Contact, stick zone, directions of slip and code of Regime for every value along an axis."""
 
@@ -184,24 +260,29 @@ def _map(at: Array, zones: _Zones, axes: Axes | None, length: Measure | None, le
     length = length or unit(np.append(zones.a, zones.c), "m")
     low, high = -length(zones.a), length(zones.c)
     start, end = -length(zones.m), length(zones.n)
-    with style():
-        if axes is None:
-            _, axes = subplots(size=(5.6, 3.6))
+    with canvas(axes, size=(5.6, 3.6)) as axes:
         labels = set()
         for i, (name, edges, where) in enumerate(_areas(zones, low, high, start, end)):
             look = {**AREAS[name], "label": None if name in labels else name}
             axes.fill_between(at, *edges, where=where, zorder=0.5 + i / 100, **look)
             labels.add(name)
-        for edge in (low, high):
-            axes.plot(at, edge, color="#555555", linewidth=1.0)
         for edge, label in ((start, "exact"), (end, None)):
             broken = _broken(at, edge, (zones.left, zones.right))
             axes.plot(*broken, label=label, **LINES["exact"])
-        axes.set(ylabel=length.label("x"), xlim=(at.min(), at.max()))
-        axes.grid(False)
-        if legend:
-            key(axes)
+        _finish(axes, at, (low, high), length, legend)
     return axes
+
+
+def _finish(
+    axes: Axes, at: Array, edges: tuple[Array, Array], length: Measure, legend: bool
+) -> None:
+    """Draw the edges of the contact, and what all maps have."""
+    for edge in edges:
+        axes.plot(at, edge, color="#555555", linewidth=1.0)
+    axes.set(ylabel=length.label("x"), xlim=(at.min(), at.max()))
+    axes.grid(False)
+    if legend:
+        key(axes)
 
 
 def _areas(

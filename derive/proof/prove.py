@@ -10,7 +10,8 @@ from derive.proof.points import contacts, named, numeric, numeric_by_steps
 from derive.proof.symbolic import symbolic_proof
 from derive.proof.verdict import WORKING, Comparison, Proof, Verdict, combined, numerical_proof
 from derive.sheet.formulas import FormulaSheet
-from derive.theory.segments import Parts, written_out
+from derive.theory.parts import parts_of
+from derive.theory.segments import written_out
 
 
 def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
@@ -67,7 +68,7 @@ def _also_computed(sheet: FormulaSheet, name: str, proof: Proof) -> Proof:
     computed = sheet[name].computed
     if computed is None or not proof.holds:
         return proof
-    steps = [(d.symbol, written_out(d.expr)) for d in Parts(sheet.frame).definitions]
+    steps = [(d.symbol, written_out(d.expr)) for d in parts_of(sheet.frame).definitions]
     summed, derived = numeric_by_steps(steps, written_out(computed)), numeric(sheet.flat(name))
     with mpmath.workdps(WORKING):
         equal = numerical_proof(

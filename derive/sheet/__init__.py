@@ -5,6 +5,7 @@ module       contents
 notation     formulas as text and LaTeX
 mathml       LaTeX as MathML
 prose        formulas in plain text as HTML
+picture      curves as SVG
 formulas     FormulaSheet, which holds the formulas
 derivation   a body's sheet, derived from g(x) stage by stage
 built        the finished body as plain data, which the cache keeps

@@ -6,6 +6,8 @@ Out: FormulaSheet without proofs.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
+from functools import partial
+from types import ModuleType
 
 from sympy import Expr, Symbol, pi, sqrt
 from sympy.logic.boolalg import Boolean
@@ -28,8 +30,8 @@ from derive.theory.algebra import tidy
 from derive.theory.closed_forms import NoRule, closed_forms
 from derive.theory.edges import Edge, edge_ratio, load_rate, pressure_series
 from derive.theory.frame import Frame
+from derive.theory.parts import has_parts, parts_of
 from derive.theory.pressure import pressure
-from derive.theory.segments import Parts, has_parts
 
 Stage = Callable[[FormulaSheet], Iterator[Formula]]
 """Function that derives formulas from those already on a sheet."""
@@ -190,7 +192,7 @@ def _by_parts(sheet: FormulaSheet) -> FormulaSheet:
     """Add sums over the parts of a contact to formulas that lose digits near kinks."""
     if not has_parts(sheet.frame):
         return sheet
-    parts, known = Parts(sheet.frame), dict(sheet.dimensions)
+    parts, known = parts_of(sheet.frame), dict(sheet.dimensions)
     for d in parts.definitions:
         known[d.symbol] = dimension_of(d.expr, known) or NUMBER
     formulas = dict(sheet.formulas)
@@ -203,45 +205,39 @@ def _by_parts(sheet: FormulaSheet) -> FormulaSheet:
 
 def _superposed(sheet: FormulaSheet) -> Iterator[Formula]:
     """Loads, tilt, pressure and edge coefficients of any profile, as integrals of its curvature."""
-    frame, conditions = sheet.frame, contact_conditions(sheet.frame)
-    source = f"superposition of wedges; {_CLASSIC}"
-    for name, symbol, derive, meaning, unit in (
-        ("tilt", alpha, superposition.tilt, "tilt of this contact", "rad"),
-        ("load", P, superposition.load, "normal load", "N/m"),
-        ("moment", M, superposition.moment, "moment", "N"),
-    ):
-        yield Formula(name, symbol, (a, c), derive(frame), meaning, unit, source, conditions)
-    inside = inside_contact(frame, x)
-    p, symbol = superposition.pressure(frame), Symbol("p")
-    yield Formula("pressure", symbol, (x, a, c), p, "contact pressure", "Pa", source, inside)
+    frame, source = sheet.frame, f"superposition of wedges; {_CLASSIC}"
+    yield from _loads(frame, superposition, source, source, source)
+    yield _pressure_formula(frame, superposition.pressure(frame), source)
     for name, at_edge, unit, meaning in _EDGE_COEFFICIENTS:
-        for edge in Edge:
-            expr = at_edge(frame, edge)
-            yield _edge_formula(name, edge, expr, unit, meaning, source, conditions)
+        derive = partial(at_edge, frame)
+        yield from _at_both_edges(name, derive, meaning, unit, source, contact_conditions(frame))
 
 
 def _equilibrium(sheet: FormulaSheet) -> Iterator[Formula]:
-    conditions = contact_conditions(sheet.frame)
-    for name, symbol, derive, meaning, unit, source in (
-        ("tilt", alpha, equilibrium.tilt, "tilt of this contact", "rad", "I_0 = 0"),
-        ("load", P, equilibrium.load, "normal load", "N/m", "P = (E*/2) I_1"),
-        ("moment", M, equilibrium.moment, "moment", "N", "M = -(E*/2) (I_2 - mid I_1)"),
-    ):
-        source = f"{source}; {_CLASSIC}"
-        yield Formula(name, symbol, (a, c), derive(sheet.frame), meaning, unit, source, conditions)
+    sources = "I_0 = 0", "P = (E*/2) I_1", "M = -(E*/2) (I_2 - mid I_1)"
+    yield from _loads(sheet.frame, equilibrium, *(f"{source}; {_CLASSIC}" for source in sources))
+
+
+def _loads(frame: Frame, theory: ModuleType, *sources: str) -> Iterator[Formula]:
+    """Tilt, load and moment by the functions of these names in a module of the theory."""
+    conditions = contact_conditions(frame)
+    rows = (
+        ("tilt", alpha, "tilt of this contact", "rad"),
+        ("load", P, "normal load", "N/m"),
+        ("moment", M, "moment", "N"),
+    )
+    for (name, symbol, meaning, unit), source in zip(rows, sources, strict=True):
+        expr = getattr(theory, name)(frame)
+        yield Formula(name, symbol, (a, c), expr, meaning, unit, source, conditions)
 
 
 def _pressure(sheet: FormulaSheet) -> Iterator[Formula]:
-    yield Formula(
-        "pressure",
-        Symbol("p"),
-        (x, a, c),
-        pressure(sheet.frame),
-        "contact pressure",
-        "Pa",
-        _CLASSIC,
-        inside_contact(sheet.frame, x),
-    )
+    yield _pressure_formula(sheet.frame, pressure(sheet.frame), _CLASSIC)
+
+
+def _pressure_formula(frame: Frame, expr: Expr, source: str) -> Formula:
+    inside, p = inside_contact(frame, x), Symbol("p")
+    return Formula("pressure", p, (x, a, c), expr, "contact pressure", "Pa", source, inside)
 
 
 def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
@@ -266,29 +262,38 @@ def _edges(sheet: FormulaSheet) -> Iterator[Formula]:
     series = {edge: pressure_series(sheet.frame, edge, 2) for edge in Edge}
     source = f"expansion of p(x); cf. eqs. (8), (9), {_PAPER}"
     for order, (name, _, unit, meaning) in enumerate(_EDGE_COEFFICIENTS):
-        for edge in Edge:
-            expr = series[edge][order]
-            yield _edge_formula(name, edge, expr, unit, meaning, source, conditions)
+        terms = {edge: series[edge][order] for edge in Edge}
+        yield from _at_both_edges(name, terms.__getitem__, meaning, unit, source, conditions)
 
 
 _EDGE_COEFFICIENTS = (
-    ("K_N", superposition.edge_coefficient, "Pa/sqrt(m)", "coefficient of sqrt(s) in p"),
-    ("L_N", superposition.second_coefficient, "Pa/m**(3/2)", "coefficient of s**(3/2) in p"),
+    (
+        *("K_N", superposition.edge_coefficient, "Pa/sqrt(m)"),
+        "coefficient of sqrt(s) in p at the {} edge",
+    ),
+    (
+        *("L_N", superposition.second_coefficient, "Pa/m**(3/2)"),
+        "coefficient of s**(3/2) in p at the {} edge",
+    ),
 )
 
 
-def _edge_formula(
+def _at_both_edges(
     name: str,
-    edge: Edge,
-    expr: Expr,
-    unit: str,
+    derive: Callable[[Edge], Expr],
     meaning: str,
+    unit: str,
     source: str,
     conditions: tuple[Boolean, ...],
-) -> Formula:
-    side = edge.name.lower()
-    symbol, words = Symbol(f"{name}_{side}"), f"{meaning} at the {side} edge"
-    return Formula(f"{name}_{side}", symbol, (a, c), expr, words, unit, source, conditions)
+    arguments: tuple[Symbol, ...] = (a, c),
+    letter: str = "",
+) -> Iterator[Formula]:
+    """A formula for each edge; `meaning` has {} in the place of its side."""
+    for edge in Edge:
+        side = edge.name.lower()
+        symbol, words = Symbol(f"{letter or name}_{side}"), meaning.format(side)
+        expr = derive(edge)
+        yield Formula(f"{name}_{side}", symbol, arguments, expr, words, unit, source, conditions)
 
 
 def _rates(sheet: FormulaSheet) -> Iterator[Formula]:
@@ -329,50 +334,41 @@ def _stick(sheet: FormulaSheet) -> Iterator[Formula]:
         source,
         inside,
     )
-    for name, derive, power, unit in (
-        ("K_T", stick.K_T, "1/sqrt(s)", "Pa*sqrt(m)"),
-        ("L_T", stick.L_T, "sqrt(s)", "Pa/sqrt(m)"),
-    ):
-        for edge in Edge:
-            side = edge.name.lower()
-            yield Formula(
-                f"{name}_{side}",
-                Symbol(f"{name}_{side}"),
-                arguments,
-                derive(edge),
-                f"coefficient of {power} in the full-stick change at the {side} edge",
-                unit,
-                f"expansion of full_stick_change; cf. eq. (32), {_PAPER}",
-                conditions,
-            )
-    for edge in Edge:
-        side = edge.name.lower()
-        yield Formula(
-            f"stick_margin_{side}",
-            Symbol(f"S_{side}"),
-            (a, c, dP, dM, dQ, dsigma),
-            stick.stick_margin(edge),
-            f"margin against slip at the {side} edge as all loads begin to change",
-            "N/m",
-            "an edge that moves by d leaves dq = 2 K_T sqrt(s)/d; stick needs |dq| < f K_N sqrt(s)",
-            conditions,
-        )
+    expanded = f"expansion of full_stick_change; cf. eq. (32), {_PAPER}"
+    coefficient = "coefficient of 1/sqrt(s) in the full-stick change at the {} edge"
+    yield from _at_both_edges(
+        "K_T", stick.K_T, coefficient, "Pa*sqrt(m)", expanded, conditions, arguments
+    )
+    coefficient = coefficient.replace("1/sqrt(s)", "sqrt(s)")
+    yield from _at_both_edges(
+        "L_T", stick.L_T, coefficient, "Pa/sqrt(m)", expanded, conditions, arguments
+    )
+    yield from _at_both_edges(
+        "stick_margin",
+        stick.stick_margin,
+        "margin against slip at the {} edge as all loads begin to change",
+        "N/m",
+        "an edge that moves by d leaves dq = 2 K_T sqrt(s)/d; stick needs |dq| < f K_N sqrt(s)",
+        conditions,
+        (a, c, dP, dM, dQ, dsigma),
+        "S",
+    )
 
 
 def _slip(sheet: FormulaSheet) -> Iterator[Formula]:
-    source = f"dq bounded at both ends of the stick zone, first order; cf. {_PAPER}, section 3"
-    for edge in Edge:
-        side = edge.name.lower()
-        yield Formula(
-            f"slip_{side}",
-            Symbol(f"d_{side}"),
-            (a, c, dQ, dsigma),
-            slip.slip_zone(stick.pull(edge), sheet[f"K_N_{side}"].expr),
-            f"slip zone at the {side} edge under constant normal load, to first order",
-            "m",
-            source,
-            contact_conditions(sheet.frame),
-        )
+    def zone(edge: Edge) -> Expr:
+        return slip.slip_zone(stick.pull(edge), sheet[f"K_N_{edge.name.lower()}"].expr)
+
+    yield from _at_both_edges(
+        "slip",
+        zone,
+        "slip zone at the {} edge under constant normal load, to first order",
+        "m",
+        f"dq bounded at both ends of the stick zone, first order; cf. {_PAPER}, section 3",
+        contact_conditions(sheet.frame),
+        (a, c, dQ, dsigma),
+        "d",
+    )
 
 
 def _moderate(sheet: FormulaSheet) -> Iterator[Formula]:

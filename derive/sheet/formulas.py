@@ -19,7 +19,7 @@ from derive.reading.units import NUMBER, Dimension, check, dimension_of, parse_u
 from derive.sheet.notation import latex_of, text_of
 from derive.symbols import QUANTITIES, P, Quantity, a, alpha, c, h
 from derive.theory.frame import Frame
-from derive.theory.segments import Parts
+from derive.theory.parts import parts_of
 
 
 @dataclass(frozen=True)
@@ -194,7 +194,7 @@ class FormulaSheet(Mapping[str, Formula]):
     def computed_definitions(self) -> dict[Expr, Expr]:
         """Definitions of the symbols and functions in the evaluated forms."""
         forms = [f.computed for f in self.values() if f.computed is not None]
-        return Parts(self.frame).defined_in(forms) if forms else {}
+        return parts_of(self.frame).defined_in(forms) if forms else {}
 
     @property
     def title(self) -> str:

@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 from mpmath import mpf
-from sympy import Abs, Expr, Max, Rational, cosh, log, pi, sqrt
+from sympy import Abs, Expr, Rational, cosh, log, sqrt
 from sympy import exp as sympy_exp
 
 from derive import parameter, x
@@ -102,31 +102,6 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(name:
                 for side in (1, -1):
                     for value, (total, size) in zip(curve(side, t), totals, strict=True):
                         assert abs(abs(mpf(value)) - abs(total)) <= 1e-13 * size, t
-
-
-@pytest.mark.enough("pi")
-@pytest.mark.parametrize("exponent", [pi, sqrt(2), Rational(7, 3)], ids=str)
-def test_a_power_that_is_no_whole_or_half_one_is_written_as_it_is(exponent: Expr) -> None:
-    """g = x**2/(2 L) + phi x + b u**q, u = |x|/b: g'' = 1/L + q (q - 1) u**(q - 2)/b, also where
-    t**2 is next to nothing."""
-    q = float(exponent)
-    g = x**2 / (2 * L) + phi * x + b * (Abs(x) / b) ** exponent
-    with body_of(g) as (_, _, curve):
-        for t in (1e-75, 1e-40, 1e-3, 1.0):
-            wanted = 1 / 1.5 + q * (q - 1) * (t / 0.5) ** (q - 2) / 0.5
-            found = [curve(side, t)[1] for side in (1, -1)]
-            assert found == pytest.approx([wanted, wanted], rel=1e-12)
-
-
-def test_a_corner_where_an_exponential_is_e_becomes_code() -> None:
-    """g = phi (b exp(x/b) + Max(0, x - b)): at x = b g' is phi e and phi (e + 1), g'' phi e/b."""
-    with body_of(b * phi * sympy_exp(x / b) + phi * Max(0, x - b)) as (module, own, _):
-        at = [*module._cuts(own)].index(0.5)
-        assert module._corners(own)[at] == 0.125
-        for piece, side, slope in ((at, -1, np.e), (at + 1, 1, np.e + 1)):
-            found = module._curve(piece, side, 0.0, own)
-            assert abs(found[0]) == pytest.approx(0.125 * slope, rel=1e-15)
-            assert found[1] == pytest.approx(0.125 * np.e / 0.5, rel=1e-15)
 
 
 @pytest.mark.enough("exponential")

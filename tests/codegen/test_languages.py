@@ -120,11 +120,6 @@ def test_the_load_of_a_cylinder(language: str) -> None:
     assert {*HERTZ_LOAD[language]} <= {line.strip() for line in text.split("\n")}
 
 
-def test_julia_has_atan_of_two_arguments() -> None:
-    text = code_of(of_library("wedge"), "julia")
-    assert "atan(" in text and "atan2" not in text
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_integrals_are_named_and_left_out(language: str) -> None:
     text = code_of(of_library("catenary"), language)

@@ -36,7 +36,6 @@ from sympy import (
     Pow,
     Product,
     Rational,
-    S,
     Sum,
     Symbol,
     TribonacciConstant,
@@ -253,18 +252,6 @@ def test_conditions_evaluate_to_themselves() -> None:
 def test_what_is_unknown_is_refused(expr: Basic) -> None:
     with pytest.raises(CannotPrint):
         NumPyPrinter().doprint(expr)
-
-
-@pytest.mark.parametrize("unknown", [zeta(p), Function("g")(x), I], ids=str)
-def test_what_is_unknown_is_refused_anywhere(unknown: Expr) -> None:
-    in_powers = [held(Pow, unknown, power) for power in (-1, 2, S.Half, -S.Half)]
-    for expr in (
-        *(held(Add, x, unknown), held(Mul, x, unknown), held(Mul, x, in_powers[0]), *in_powers[1:]),
-        *(held(Pow, p, unknown), held(sin, unknown), kept(unknown)),
-        Piecewise((held(Mul, x, unknown), x > 0), (y, True)),
-    ):
-        with pytest.raises(CannotPrint):
-            NumPyPrinter().doprint(expr)
 
 
 def test_a_refusal_says_what_is_unknown() -> None:

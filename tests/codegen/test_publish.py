@@ -5,16 +5,14 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
-from hashlib import sha256
 from pathlib import Path
 
 import pytest
 
 from derive.codegen.mark import MARK
-from derive.codegen.publish import RUNTIME, differences, modules_in, package_files, publish
+from derive.codegen.publish import RUNTIME, differences, package_files, publish
 from derive.command.errors import BadOutput
-from derive.command.folder import MANIFEST, demand_replaceable
-from derive.pipeline import GENERATED
+from derive.command.folder import MANIFEST
 
 OLD = package_files({"cylinder": f"{MARK}\nold = 1\n", "wedge": f"{MARK}\nwedge = 1\n"})
 NEW = package_files({"cylinder": f"{MARK}\nnew = 2\n", "punch": f"{MARK}\npunch = 2\n"})
@@ -39,31 +37,7 @@ def package(tmp_path: Path) -> Path:
 # ------------------------------------------------------------------ what a package holds
 
 
-def test_a_package_holds_its_modules_and_what_they_need() -> None:
-    files = package_files({"cylinder": "text"})
-    assert {"__init__.py", "py.typed", "cylinder.py", "runtime/slip/zone.py"} <= files.keys()
-    assert files["cylinder.py"] == "text"
-    for name in ("runtime/kernels.py", "runtime/slip/zone.py"):
-        assert files[name] == (GENERATED / name).read_text(encoding="utf-8")
-
-
-def test_modules_of_a_package_are_read_back(package: Path) -> None:
-    assert modules_in(package) == {name: OLD[f"{name}.py"] for name in ("cylinder", "wedge")}
-    assert modules_in(package / "nowhere") == {}
-
-
-def test_the_list_is_one_for_sha256sum(package: Path) -> None:
-    lines = (package / MANIFEST).read_text().splitlines()
-    told = {name: checksum for checksum, name in (line.split("  ") for line in lines)}
-    assert told.keys() | {MANIFEST} == OLD.keys()
-    assert all(sha256((package / name).read_bytes()).hexdigest() == told[name] for name in told)
-
-
 # ------------------------------------------------------------------ our own package
-
-
-def test_the_committed_package_may_be_replaced() -> None:
-    demand_replaceable(GENERATED, BadOutput, RUNTIME)
 
 
 def test_the_library_of_our_own_package_is_left_alone(package: Path) -> None:
@@ -89,15 +63,6 @@ def test_the_library_of_our_own_package_is_left_alone(package: Path) -> None:
 
 
 # ------------------------------------------------------------------ accepted
-
-
-def test_a_directory_that_is_absent_is_made_and_texts_are_written_byte_by_byte(
-    tmp_path: Path,
-) -> None:
-    files = package_files({"cylinder": f"{MARK}\n# α ≤ φ\r\n"})
-    publish(files, tmp_path / "some" / "where" / "package")
-    assert contents(tmp_path / "some" / "where" / "package") == as_bytes(files)
-    assert [p.name for p in (tmp_path / "some" / "where").iterdir()] == ["package"]
 
 
 def test_a_package_is_replaced_whole(package: Path) -> None:
@@ -283,18 +248,3 @@ def test_every_file_that_differs_is_named_and_its_change_shown_line_by_line(pack
         "notes.txt": "not generated",
         **{"punch.py": "missing", "py.typed": "missing", "wedge.py": "not generated"},
     }
-
-
-def test_one_byte_is_a_difference(package: Path) -> None:
-    path = package / "runtime" / "arrays.py"
-    path.write_bytes(path.read_bytes() + b"\n")
-    assert [(d.name, d.what) for d in differences(OLD, package)] == [
-        ("runtime/arrays.py", "changed")
-    ]
-
-
-def test_what_is_no_text_or_no_file_is_a_difference_all_the_same(package: Path) -> None:
-    (package / "cylinder.py").write_bytes(b"\xff\xfe\x00")
-    (package / "wedge.py").unlink()
-    (package / "wedge.py").mkdir()
-    assert [d.name for d in differences(OLD, package)] == ["cylinder.py", "wedge.py"]

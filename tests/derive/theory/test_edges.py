@@ -3,9 +3,7 @@
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Rational, Symbol, simplify, sqrt
 
-from derive.symbols import E_star, h
 from derive.theory.edges import Edge, pressure_series
 from tests.derive.bodies import CASES, close, number, sheet, value
 
@@ -62,11 +60,3 @@ def test_four_terms_leave_an_error_of_the_fifth(name: str, edge: Edge) -> None:
     with mpmath.workdps(60):
         ratio = rest(mpf("1e-5")) / rest(mpf("1e-6"))
     assert abs(mpmath.log10(ratio) - mpf("4.5")) < mpf("1e-4")
-
-
-def test_the_series_of_a_cylinder_is_the_binomial_series() -> None:
-    """p = (E*/2R) sqrt(s) sqrt(h - s) and sqrt(1 - t) = 1 - t/2 - t^2/8 - t^3/16 - 5 t^4/128."""
-    first = E_star / (2 * Symbol("R", positive=True)) * sqrt(h)
-    factors = (1, -Rational(1, 2), -Rational(1, 8), -Rational(1, 16), -Rational(5, 128))
-    for n, found in enumerate(pressure_series(sheet("hertz").frame, Edge.LEFT, 5)):
-        assert simplify(found - first * factors[n] / h**n) == 0

@@ -13,10 +13,10 @@ from derive.proof.prove import prove_sheet
 from derive.proof.verdict import POINTS
 from derive.sheet.derivation import derive_sheet
 from derive.sheet.formulas import FormulaSheet
-from derive.sheet.notation import text_of
 from derive.symbols import x
 from derive.theory.edges import Edge, pressure_series
-from derive.theory.segments import Parts, has_parts, written_out
+from derive.theory.parts import has_parts, parts_of
+from derive.theory.segments import written_out
 from tests.derive.bodies import of_library
 
 BODIES = ("flat_rounded", "rounded_wedge", "two_radii", "wedge_parabola", "flat_sloped")
@@ -46,7 +46,7 @@ def sheet_of(name: str) -> FormulaSheet:
 @pytest.mark.parametrize("name", [*BODIES, "many_parts"])
 def test_the_sums_are_the_derived_formulas(name: str) -> None:
     sheet = sheet_of(name)
-    parts, points = Parts(sheet.frame), contacts(sheet)
+    parts, points = parts_of(sheet.frame), contacts(sheet)
     steps = [(d.symbol, written_out(d.expr)) for d in parts.definitions]
     assert len(points) == POINTS
     for formula, expr in parts.formulas.items():
@@ -64,20 +64,10 @@ def test_the_sums_are_the_derived_formulas(name: str) -> None:
 
 @pytest.mark.parametrize("name", BODIES)
 def test_no_term_of_what_a_contact_carries_is_negative(name: str) -> None:
-    parts = Parts(sheet_of(name).frame)
+    parts = parts_of(sheet_of(name).frame)
     for formula in ("load", "K_N_left", "K_N_right", "pressure"):
         terms = parts.formulas[formula].expand().as_ordered_terms()
         assert not any(term.could_extract_minus_sign() for term in terms)
-
-
-def test_what_the_rounded_edges_of_a_punch_carry_is_two_segments() -> None:
-    sheet = sheet_of("flat_rounded")
-    assert text_of(sheet["load"].computed) == "E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)"
-    assert sheet.computed_as("load").startswith("P(a, c) = E_star*h**2*(segment(t_1)")
-    for line in ("t_1 = edge_angle(a - b, b + c)", "segment(t) = t - sin(t)*cos(t)"):
-        assert f"    {line}\n" in str(sheet)
-    assert r"\operatorname{segment}{\left(t_{1} \right)}" in sheet.latex
-    assert r"\sin_{1}" in sheet.latex
 
 
 def test_bodies_that_a_contact_cannot_leave_keep_one_form() -> None:

@@ -8,7 +8,7 @@ import pytest
 from mpmath import mpf
 from sympy import Expr, Rational, S, Symbol, cosh, exp, lambdify, sinh
 
-from derive.symbols import a, c, x
+from derive.symbols import x
 from derive.theory.frame import RootFrame
 from derive.theory.special import Exponential, Power, Root, Special, X
 from tests.derive.integrals import over_contact
@@ -151,20 +151,3 @@ def test_roots_of_quadratics(order: int, quadratic: Expr, left: str, right: str)
     ends = {s: d for s, d in frame.definitions.items() if s in (frame.left, frame.right)}
     found = found.xreplace({s: d.xreplace(ends) for s, d in frame.definitions.items()})
     assert abs(number(found, **edges) - wanted) < mpf(10) ** -25 * max(abs(wanted), mpf(1))
-
-
-@pytest.mark.parametrize(
-    ("quadratic", "m", "n"),
-    [
-        # a = c = 1: A = B = sqrt(2), m = 4/(4*2), n = 4/(2 sqrt 2)**2.
-        (x**2 + 1, "0.5", "0.5"),
-        # A = B = sqrt(3), m = -4/(4*3), n = -4/(2 sqrt 3)**2.
-        (4 - x**2, "-1/3", "-1/3"),
-    ],
-)
-def test_parameter_and_characteristic_by_hand(quadratic: Expr, m: str, n: str) -> None:
-    frame = RootFrame(quadratic, 1)
-    ends = {frame.left: frame.definitions[frame.left], frame.right: frame.definitions[frame.right]}
-    for symbol, value in ((frame.m, m), (frame.n, n)):
-        found = frame.definitions[symbol].xreplace(ends).subs({a: 1, c: 1})
-        assert found.equals(Rational(value))

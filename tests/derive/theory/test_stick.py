@@ -2,8 +2,6 @@
 
 import mpmath
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from mpmath import mpf
 from sympy import sqrt
 
@@ -47,18 +45,3 @@ def test_K_T_by_hand() -> None:
     for edge, sense in ((Edge.LEFT, 1), (Edge.RIGHT, -1)):
         expected = (dQ / mpmath.pi + sense * dsigma * h / 8) / sqrt(h)
         assert abs((K_T(edge) - expected).subs({a: 2, c: 1, dQ: 3, dsigma: 5}).evalf()) < 1e-14
-
-
-_load = st.floats(0.01, 10)
-_edge = st.floats(0.125, 8)
-
-
-@given(_edge, _edge, _load, st.floats(-10, 10))
-def test_it_is_linear_in_the_loads_and_mirrors(
-    left: float, right: float, load: float, tension: float
-) -> None:
-    place = -mpf(left) + mpf("0.3125") * (mpf(left) + right)
-    whole = change(place, left, right, load, tension)
-    parts = change(place, left, right, load, 0.0) + change(place, left, right, 0.0, tension)
-    assert close(whole, parts, scale=1)
-    assert close(whole, change(-place, right, left, load, -tension), scale=1)
