@@ -15,7 +15,7 @@ from pathlib import Path
 import generated.runtime
 from derive.command.errors import OtherRuntime
 
-VERSION = 1
+VERSION = 2
 """The version of generated/runtime that this package needs."""
 
 if getattr(generated.runtime, "VERSION", 0) != VERSION:

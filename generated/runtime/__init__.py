@@ -26,4 +26,4 @@ forward     contacts and their state, case by case
 slip/       stick zones, slip zones, shear, a march through a cycle
 """
 
-VERSION = 1
+VERSION = 2

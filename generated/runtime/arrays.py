@@ -19,11 +19,6 @@ from .chunks import any_lazy, demand_array, is_lazy, over_chunks
 
 Numbers = dict[str, Any]
 
-BLOCK = 16_384
-"""Number of elements computed at once: the temporary arrays of a formula then stay in the cache."""
-
-_FLOAT64 = np.dtype(np.float64)
-
 
 def evaluated(
     function: Callable[..., Any],
@@ -42,26 +37,19 @@ def evaluated(
     numbers = numbers_of(given, constants)
     shape = shape_of(numbers)
     if any_lazy(numbers.values()):
-        call = partial(_evaluated_chunk, function, tuple(constants), kind)
-        return over_chunks(call, function.__name__.lstrip("_"), numbers)
+        call = partial(evaluated, function, kind=kind)
+        return over_chunks(call, function.__name__.lstrip("_"), numbers, (given, constants))
     count = 1 if kind is None else len(kind._fields)
     with np.errstate(all="ignore"):
         if not shape:
             result = function(*numbers.values())
             values = [np.float64(v) for v in (result if count > 1 else (result,))]
-        elif math.prod(shape) <= BLOCK:
+        elif math.prod(shape) <= np.getbufsize():
             result = function(*numbers.values())
             values = [_shaped(v, shape) for v in (result if count > 1 else (result,))]
         else:
             values = _in_blocks(function, [*numbers.values()], count)
     return values[0] if kind is None else kind(*values)
-
-
-def _evaluated_chunk(
-    function: Callable[..., Any], constants: tuple[str, ...], kind: Any, numbers: Numbers
-) -> Any:
-    given = {name: v for name, v in numbers.items() if name not in constants}
-    return evaluated(function, given, {name: numbers[name] for name in constants}, kind)
 
 
 def _shaped(value: Any, shape: tuple[int, ...]) -> Any:
@@ -76,8 +64,7 @@ def _in_blocks(function: Callable[..., Any], values: list[Any], count: int) -> l
         [*varying, *[None] * count],
         ["external_loop", "buffered"],
         flags,
-        [_FLOAT64] * (len(varying) + count),
-        buffersize=BLOCK,
+        [np.float64] * (len(varying) + count),
     )
     with blocks:
         for arrays in blocks:
@@ -109,9 +96,9 @@ def solved(
     numbers = numbers_of(given, {**constants, **own})
     shape = shape_of(numbers)
     if any_lazy(numbers.values()):
-        names = tuple(given), tuple(constants), tuple(own)
-        call = partial(_solved_chunk, loop, body, names, kind, whole)
-        return over_chunks(call, loop.__name__.removeprefix("each_"), numbers)
+        call = partial(solved, loop, body, kind=kind, whole=whole)
+        name = loop.__name__.removeprefix("each_")
+        return over_chunks(call, name, numbers, (given, constants, own))
     row, rest = len(given) + len(constants), [*numbers.values()]
     cases = _table(rest[:row], shape)
     out = np.empty((len(cases), 1 if kind is None else len(kind._fields)))
@@ -123,18 +110,6 @@ def solved(
         at = kind._fields.index(name)
         columns[at] = columns[at].astype(np.int64)
     return kind(*columns)
-
-
-def _solved_chunk(
-    loop: Callable[..., None],
-    body: Body,
-    names: tuple[tuple[str, ...], ...],
-    kind: Any,
-    whole: tuple[str, ...],
-    numbers: Numbers,
-) -> Any:
-    given, constants, own = ({name: numbers[name] for name in group} for group in names)
-    return solved(loop, body, given, constants, own, kind, whole)
 
 
 def _table(values: list[Any], shape: tuple[int, ...]) -> Any:
@@ -187,7 +162,7 @@ def real(value: Any, label: str) -> Any:
     """
     if type(value) is float or type(value) is np.float64:
         return np.float64(value)
-    if type(value) is np.ndarray and value.dtype == _FLOAT64 and value.ndim:
+    if type(value) is np.ndarray and value.dtype.char == "d" and value.ndim:
         return value
     demand_array(value, label)
     try:

@@ -5,7 +5,7 @@ Nothing is imported from Dask; a caller that passes such an array has already lo
 
 import sys
 from collections.abc import Callable, Iterable, Mapping
-from operator import itemgetter
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -36,54 +36,68 @@ def demand_array(value: Any, label: str) -> None:
 
 
 def over_chunks(
-    call: Callable[[dict[str, Any]], Any],
+    call: Callable[..., Any],
     name: str,
-    given: Mapping[str, Any],
-    in_time: bool = False,
+    numbers: Mapping[str, Any],
+    groups: Iterable[Iterable[str]],
+    axes: Mapping[str, str] | None = None,
+    places: tuple[int, ...] = (),
 ) -> Any:
     """The result of a call with arguments some of which are lazy arrays; it is lazy, too.
 
-    call: takes the arguments as a dictionary.
+    call: takes a dictionary for each group of arguments, and the other ones by their names.
     name: by which Dask names its tasks.
-    given: numbers and arrays that broadcast, by name.
-    in_time: whether the last axis is time and must therefore lie in one chunk.
+    numbers: numbers and arrays that broadcast, by name.
+    axes: if the last axis is time, which of time t and places p the last axes of each result are.
+    places: the shape of the places.
 
-    Chunks are unified as in Dask's own functions.  All fields of a chunk's result are one task.
-    A call with empty arrays determines the types of the results, and raises the
-    errors of invalid arguments at once.
+    Chunks are unified as in Dask's own functions; time must lie in one chunk.  All fields of a
+    chunk's result are one task.  A call with empty arrays determines the types of the results, and
+    raises the errors of invalid arguments at once.
 
     Raises ValueError if time lies in several chunks.
     """
-    names = tuple(given)
-    instants = _instants(given) if in_time else 0
-    emptied = [_empty(v, instants) for v in given.values()]
-    sample = _on_chunk(*emptied, call=call, names=names)
-    blockwise = sys.modules["dask.array"].blockwise
-    axes = _axes(max(_ndim(v) for v in given.values()))
-    pairs = [x for v in given.values() for x in (v, _axes(_ndim(v)) if _is_array(v) else None)]
-    many = isinstance(sample, tuple)
-    chunked = blockwise(
-        _on_chunk,
-        axes,
-        *pairs,
-        call=call,
-        names=names,
-        token=name,
-        meta=sample[0] if many else sample,
-    )
+    instants = 0
+    if axes is not None:
+        numbers = {
+            k: v.reshape(1) if _ndim(v) == 0 and is_lazy(v) else v for k, v in numbers.items()
+        }
+        instants = _instants(numbers)
+    known: dict[str, Any] = {"call": call, "names": tuple(numbers)}
+    known["groups"] = [*map(tuple, groups)]
+    sample = _on_chunk(*(_empty(v, instants) for v in numbers.values()), **known)
+    many, blockwise = isinstance(sample, tuple), sys.modules["dask.array"].blockwise
+    full = _axes(max(map(_ndim, numbers.values())))
+    pairs = [x for v in numbers.values() for x in (v, _axes(_ndim(v)) if _is_array(v) else None)]
+    meta = sample[0] if many else sample
+    chunked = blockwise(_on_chunk, full, *pairs, **known, token=name, meta=meta)
     if not many:
         return chunked
-    return type(sample)(
-        *(
-            blockwise(itemgetter(i), axes, chunked, axes, token=f"{name}-{field}", meta=sample[i])
-            for i, field in enumerate(sample._fields)
-        )
-    )
+    beyond = {-1 - i: length for i, length in enumerate(places)}
+    fields = []
+    for i, field in enumerate(sample._fields):
+        own, new = full, dict[int, int]()
+        if axes is not None:
+            new = beyond if "p" in axes[field] else {}
+            own = (*(full if "t" in axes[field] else full[:-1]), *new)
+        token = f"{name}-{field}"
+        lazy = partial(blockwise, _field, own, chunked, full, i=i, new_axes=new, token=token)
+        fields.append(None if sample[i] is None else lazy(meta=sample[i]))
+    return type(sample)(*fields)
 
 
-def _on_chunk(*values: Array, call: Callable[..., Any], names: tuple[str, ...]) -> Any:
+def _on_chunk(
+    *values: Array, call: Callable[..., Any], names: tuple[str, ...], groups: list[tuple[str, ...]]
+) -> Any:
     """The result for one chunk."""
-    return call(dict(zip(names, values, strict=True)))
+    numbers = dict(zip(names, values, strict=True))
+    grouped = [{name: numbers.pop(name) for name in group} for group in groups]
+    return call(*grouped, **numbers)
+
+
+def _field(chunk: Any, i: int) -> Array:
+    """A field of the result for one chunk, which Dask wraps in a list if the field has no time."""
+    return chunk[0][i] if isinstance(chunk, list) else chunk[i]
 
 
 def _is_array(value: Any) -> bool:
@@ -105,8 +119,8 @@ def _empty(value: Any, instants: int) -> Any:
     if not _is_array(value):
         return value
     shape = [0] * value.ndim
-    if instants and shape:
-        shape[-1] = 1 if value.shape[-1] == 1 else instants
+    if instants:
+        shape = [0] * max(value.ndim - 1, 1) + [1 if value.shape[-1] == 1 else instants]
     return np.zeros_like(value._meta if is_lazy(value) else value, shape=tuple(shape))
 
 

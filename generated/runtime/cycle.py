@@ -142,33 +142,28 @@ def stick_zone(
     if not isinstance(mixed, bool | np.bool_):
         raise TypeError(f"mixed must be True or False, one value for all; got {mixed!r:.60}")
     given = _between(first, second, dQ=dQ, dsigma=dsigma)
-    if mixed:
-        numbers = numbers_of(given, {"f": f, "E_star": E_star, **own})
-        if any_lazy(numbers.values()):
-            call = partial(_mixed_chunk, body, tuple(own))
-            lazy: StickZone = over_chunks(call, "stick_zone", numbers)
-            return lazy
-        return _mixed_chunk(body, tuple(own), numbers)
-    zone: StickZone = solved(
-        each_stick_zone, body, given, {"f": f, "E_star": E_star}, own, StickZone, ("regime",)
-    )
+    solve = _mixed_stick_zone if mixed else _stick_zone
+    return solve(body, given, {"f": f, "E_star": E_star}, own)
+
+
+def _stick_zone(body: Body, given: Own, constants: Own, own: Own) -> StickZone:
+    zone: StickZone = solved(each_stick_zone, body, given, constants, own, StickZone, ("regime",))
     return zone
 
 
-def _mixed_chunk(body: Body, names: tuple[str, ...], numbers: dict[str, Any]) -> StickZone:
+def _mixed_stick_zone(body: Body, given: Own, constants: Own, own: Own) -> StickZone:
     """Stick zones, also of mixed cycles."""
-    own = {name: numbers.pop(name) for name in names}
-    f, E_star = numbers.pop("f"), numbers.pop("E_star")
-    labels = ("a_1", "c_1", "a_2", "c_2", "dQ", "dsigma")
-    cycle, unit = dict(zip(labels, numbers.values(), strict=True)), {"f": f, "E_star": 1.0}
-    with np.errstate(all="ignore"):
-        cycle["dQ"], cycle["dsigma"] = cycle["dQ"] / E_star, cycle["dsigma"] / E_star
-        zone: StickZone = solved(each_stick_zone, body, cycle, unit, own, StickZone, ("regime",))
-        if not np.any(zone.regime == Regime.MIXED):
-            return zone
-        from .slip.mixed import with_mixed  # needs SciPy
+    numbers = numbers_of(given, {**constants, **own})
+    if any_lazy(numbers.values()):
+        call, groups = partial(_mixed_stick_zone, body), (given, constants, own)
+        lazy: StickZone = over_chunks(call, "stick_zone", numbers, groups)
+        return lazy
+    zone = _stick_zone(body, given, constants, own)
+    if not np.any(zone.regime == Regime.MIXED):
+        return zone
+    from .slip.mixed import with_mixed  # needs SciPy
 
-        return with_mixed(body, own, cycle, f, zone)
+    return with_mixed(body, own, numbers, zone)
 
 
 def why(
@@ -323,6 +318,7 @@ def march(
     sigma: Values,
     f: Values,
     E_star: Values,
+    mixed: bool = False,
 ) -> March:
     """A steady cycle instant by instant."""
     numbers = numbers_of(
@@ -330,8 +326,8 @@ def march(
     )
     shape = shape_of(numbers)
     if any_lazy(numbers.values()):
-        call = partial(_march_chunk, body, tuple(own))
-        lazy: March = over_chunks(call, "march", numbers, in_time=True)
+        axes = dict.fromkeys(March._fields, "t")
+        lazy: March = over_chunks(partial(march, body), "march", numbers, (own,), axes)
         return lazy
     if not shape or shape[-1] < 2:
         raise ValueError(
@@ -341,12 +337,8 @@ def march(
     f = held.pop("f")
     with np.errstate(all="ignore"):
         loads = [numbers[name] / numbers["E_star"] for name in ("P", "M", "Q", "sigma")]
-        return marched(body, held, f, *(np.broadcast_to(v, shape) for v in loads))
-
-
-def _march_chunk(body: Body, own: tuple[str, ...], numbers: dict[str, Any]) -> March:
-    parameters = {name: numbers.pop(name) for name in own}
-    return march(body, parameters, **numbers)
+        loads = [np.broadcast_to(v, shape) for v in loads]
+        return marched(body, held, f, loads, _mixed_stick_zone if mixed else _stick_zone)
 
 
 def _held(value: Any, shape: tuple[int, ...]) -> Any:

@@ -21,17 +21,9 @@ meets the second condition, and along these contacts the load grows with the lef
 import math
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from .elementary import EPS, LEAST, MOST
 from .kernels import kernel
-from .search import by_distance, narrowed
-
-MAX_STEPS = 100
-"""Largest number of steps of Newton's method, and of a search."""
-
-NEWTON_RTOL = 1e-9
-"""A step below this fraction of the distance is the last: its square is below rounding."""
+from .search import MAX_STEPS, by_distance, level, narrowed
 
 SHORTEST_PART = 2.0**-10
 """Newton's method has failed if even this fraction of a step does not reduce the error."""
@@ -191,7 +183,7 @@ def _newton(law: Any, own: Any, breaks: Any, target: Any, a: float, c: float) ->
             break
         length = max(abs(by_a) / (a - from_a), abs(by_c) / (c - from_c))
         rounding = 4 * EPS * max(abs(a) / (a - from_a), abs(c) / (c - from_c))
-        if length < NEWTON_RTOL + rounding:
+        if length < math.sqrt(EPS) + rounding:  # the square of a step is the error after it
             return a + by_a, c + by_c
         part, better = 1.0, False
         while part > SHORTEST_PART and not better:
@@ -300,47 +292,6 @@ def _nested(law: Any, own: Any, breaks: Any, target: Any, size: float) -> Any:
         if search.step == 0:
             break
     return (start + far, c) if search.top < math.inf else (math.nan, math.nan)
-
-
-# ---------------------------------------------------------------- where the tilted body is level
-
-
-@kernel
-def level(law: Any, own: Any, alpha: float) -> float:
-    """The point where the tilted body is level, g'(x) + alpha = 0; NaN if there is none.
-
-    It is a corner if the tilt lies between the slopes there, and the middle of a flat.
-    """
-    if not abs(alpha) < math.inf:
-        return math.nan
-    before, beyond = -math.inf, math.inf  # the body falls left of `before`, rises from `beyond` on
-    for at in law.breaks(own):
-        if law.slope(np.nextafter(at, -math.inf), own)[0] + alpha <= 0:
-            before = at
-        if beyond == math.inf and law.slope(at, own)[0] + alpha >= 0:
-            beyond = at
-    if before >= beyond:
-        return (before + beyond) / 2
-    if before < 0 < beyond:
-        excess = law.slope(0.0, own)[0] + alpha
-        if excess == 0:
-            return 0.0
-        if excess < 0:
-            before = 0.0
-        else:
-            beyond = 0.0
-    # search for the distance from one end of the interval, to the right or to the left
-    side, start, end = (1.0, before, beyond) if before > -math.inf else (-1.0, beyond, before)
-    far = side * (end - start)
-    guess = min(far / 2, abs(start) if start != 0 else 1.0)
-    search = by_distance(start, far, math.inf if far == math.inf else 0.0, guess)
-    for _ in range(MAX_STEPS):
-        away = math.exp(search.y)
-        slope, curvature = law.slope(start + side * away, own)
-        search = narrowed(search, side * (slope + alpha), curvature * away)
-        if search.step == 0:
-            break
-    return start + side * math.exp(search.y) if search.top < math.inf else math.nan
 
 
 # ---------------------------------------------------------------- the whole solution

@@ -74,12 +74,9 @@ class Part(NamedTuple):
     end: Any
 
 
-BESIDE_BREAK: Any = results(3)(whole, real, real, vector)
-NODE: Any = results(7)
-INTEGRAND: Any = results(5)(NODE, results(3))
-
-_beside_value, _integrand = value_of(BESIDE_BREAK), value_of(INTEGRAND)
+_beside_value = value_of(results(3)(whole, real, real, vector))
 _breaks_value = value_of(vector(vector))
+_integrand = value_of(results(5)(results(7), results(3)))
 
 
 @shared

@@ -1,10 +1,18 @@
-"""The root of an increasing function of one number: Newton's method kept between two bounds."""
+"""The root of an increasing function of one number: Newton's method kept between two bounds.
+
+One use of it is the point where a tilted body is level.
+"""
 
 import math
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from .elementary import EPS, LEAST, MOST
 from .kernels import kernel
+
+MAX_STEPS = 100
+"""Largest number of steps of a search."""
 
 CLOSEST = 1e-9
 """A root is not sought closer to a bound at which the function is infinite."""
@@ -70,3 +78,41 @@ def narrowed(search: Any, value: float, rate: float) -> Search:
         by = math.copysign(min(max(abs(y - guess), 2 * unit), abs(room)), room)
     done = abs(by) <= rounding or (top == math.inf and high - low < CLOSEST)
     return Search(low, high, top, guess, y + by, 0.0 if done else abs(by), unit)
+
+
+@kernel
+def level(law: Any, own: Any, alpha: float) -> float:
+    """The point where the tilted body is level, g'(x) + alpha = 0; NaN if there is none.
+
+    It is a corner if the tilt lies between the slopes there, and the middle of a flat.
+    """
+    if not abs(alpha) < math.inf:
+        return math.nan
+    before, beyond = -math.inf, math.inf  # the body falls left of `before`, rises from `beyond` on
+    for at in law.breaks(own):
+        if law.slope(np.nextafter(at, -math.inf), own)[0] + alpha <= 0:
+            before = at
+        if beyond == math.inf and law.slope(at, own)[0] + alpha >= 0:
+            beyond = at
+    if before >= beyond:
+        return (before + beyond) / 2
+    if before < 0 < beyond:
+        excess = law.slope(0.0, own)[0] + alpha
+        if excess == 0:
+            return 0.0
+        if excess < 0:
+            before = 0.0
+        else:
+            beyond = 0.0
+    # search for the distance from one end of the interval, to the right or to the left
+    side, start, end = (1.0, before, beyond) if before > -math.inf else (-1.0, beyond, before)
+    far = side * (end - start)
+    guess = min(far / 2, abs(start) if start != 0 else 1.0)
+    search = by_distance(start, far, math.inf if far == math.inf else 0.0, guess)
+    for _ in range(MAX_STEPS):
+        away = math.exp(search.y)
+        slope, curvature = law.slope(start + side * away, own)
+        search = narrowed(search, side * (slope + alpha), curvature * away)
+        if search.step == 0:
+            break
+    return start + side * math.exp(search.y) if search.top < math.inf else math.nan

@@ -174,11 +174,6 @@ class History(NamedTuple):
         shear traction, averaged over the contact and relative to f P/(a + c); 0 where all results
         are exact.  At single points next to a stick-slip boundary the shear traction may be farther
         off.
-    work_error : ndarray
-        Estimated error of the work up to this instant [J/m].
-    slip_error : ndarray
-        Estimated error of slip [m]: the largest at any point that has been in contact, usually next
-        to a moving edge.
     """
 
     a: Array
@@ -191,8 +186,6 @@ class History(NamedTuple):
     slip: Array
     work: Array
     error: Array
-    work_error: Array
-    slip_error: Array
 
 
 class SteadyCycle(NamedTuple):
@@ -219,13 +212,6 @@ class SteadyCycle(NamedTuple):
     error : ndarray
         Estimated error of m and n alone, relative to the contact width; 0 if they are exact, inf if
         slip does not repeat to 1e-6 within 100 rounds.
-    work_error : ndarray
-        Estimated error of work [J/m]; work is always computed numerically.
-    slip_error : ndarray
-        Estimated error of the slip range [m]: the largest at any point that is ever in contact,
-        usually next to a moving edge.
-    shear_error : ndarray
-        Estimated error of q [Pa], averaged over the contact; typically 2e-3 of f P/(a + c).
     """
 
     m: Array
@@ -237,6 +223,3 @@ class SteadyCycle(NamedTuple):
     rounds: Array
     drift: Array
     error: Array
-    work_error: Array
-    slip_error: Array
-    shear_error: Array

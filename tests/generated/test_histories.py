@@ -80,7 +80,7 @@ def test_exact_work_where_a_corner_slips() -> None:
     """int f p slip dx by an adaptive rule; the pressure is infinite at the corners at +-b."""
     loads, own = (0.5, 0.01, [0.2375], [0.2375]), {"E_star": 1.0, "phi": 0.8, "b": 0.9}
     told = flat_sloped.history(*loads, f=0.5, **own)
-    assert told.regime[0] == Regime.MODERATE and told.work_error[0] == 0
+    assert told.regime[0] == Regime.MODERATE and told.error[0] == 0
 
     def rate(x: float) -> float:
         p = flat_sloped.pressure(x, told.a[0], told.c[0], **own)

@@ -15,7 +15,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from generated import flat_rounded, hyperbola, wedge
-from generated.runtime.arrays import BLOCK, shape_of
+from generated.runtime.arrays import shape_of
 from generated.runtime.types import Contact, Edges, Regime, StickZone, Threshold
 
 VALUES: Mapping[str, float] = {
@@ -290,7 +290,7 @@ def test_shapes_that_do_not_broadcast_are_named() -> None:
 
 # ------------------------------------------------------------------ long arrays
 
-MANY = 2 * BLOCK + 1003
+MANY = 2 * np.getbufsize() + 1003
 LAYOUTS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "Fortran": lambda v: np.asfortranarray(v[: MANY // 6 * 6].reshape(6, -1)),
     "backwards": lambda v: v[::-1],

@@ -141,8 +141,7 @@ def test_reversals_in_phase_as_on_elements(case, P, M, k, request):
     off = np.mean(abs(found.q - exact.q), axis=1)
     assert np.all(off < 2 * found.error * mean + 1e-12) and np.median(off / mean) < 2e-3
     assert found.slip == pytest.approx(exact.slip, abs=3e-3 * abs(exact.slip).max())
-    assert np.all(abs(found.work - exact.work) <= found.work_error)
-    assert np.all(exact.work_error == 0) and found.work_error[-1] < 0.02 * exact.work[-1]
+    assert found.work == pytest.approx(exact.work, abs=1e-2 * exact.work[-1])
 
 
 def test_a_loop_that_is_closed_is_forgotten():
@@ -219,7 +218,7 @@ def test_a_contact_slips_until_it_is_lost(tol):
     part, x = np.array([1.0, 0.0, 1.0]), np.array([0.49, 0.735, 0.9, 0.98])
     found = history(hertz, part * LOAD, 0.0, 0.5 * F * part * LOAD, 0.0, x=x, tol=tol)
     assert found.regime[1] == Regime.NONE and np.isnan(found.work[1])
-    assert found.slip[2] == pytest.approx(F * gap(x / math.sqrt(2), x), abs=found.slip_error[2])
+    assert found.slip[2] == pytest.approx(F * gap(x / math.sqrt(2), x), rel=0.03)
     # int int f p d(slip) dx, p = sqrt(a^2 - x^2)/2
     places = np.linspace(0, 1, 1001)[:, None]
     widths = places + (1 - places) * np.linspace(0, 1, 401) ** 2
@@ -250,8 +249,7 @@ def test_slip_ends_where_the_contact_was_at_rest(tol):
     assert found.a[1] == pytest.approx(1.1)
     slip = np.where(x < 1, F * gap(math.sqrt(0.5), x), 0.0)
     for k in range(2):
-        assert found.slip[k] == pytest.approx(slip, abs=found.slip_error[k])
-    assert found.slip_error[1] < 0.03 * slip.max()
+        assert found.slip[k] == pytest.approx(slip, abs=0.02 * slip.max())
 
 
 def test_a_cycle_out_of_phase_is_as_accurate_as_asked():
@@ -520,8 +518,7 @@ def test_mirrored_loads_mirror_the_answer(case):
     assert np.all(abs(there.m - here.n) < (here.error + there.error) * (here.a + here.c))
     assert np.median(here.error) < 0.01
     assert there.q == pytest.approx(-here.q, abs=3e-3)
-    assert np.all(abs(there.work - here.work) < here.work_error + there.work_error)
-    assert here.work_error[-1] < 0.02 * here.work[-1]
+    assert there.work == pytest.approx(here.work, abs=0.02 * here.work[-1])
 
 
 def test_shear_grows_with_friction():
@@ -616,8 +613,7 @@ def test_slip_range_where_the_contact_opens():
     told = history(hertz, loads[0], 0.0, loads[1], loads[2], x=x)
     assert np.isnan(steady.slip_range).tolist() == [True, *[False] * 7, True]
     swing = np.ptp(told.slip[-T.size :], axis=0)[1:-1]
-    error = steady.slip_error + 2 * told.slip_error[-1]
-    assert steady.slip_range[1:-1] == pytest.approx(swing, abs=error)
+    assert steady.slip_range[1:-1] == pytest.approx(swing, abs=0.05 * swing.max())
     assert np.all(steady.slip_range[[1, 2, 6, 7]] > 0)
 
 
@@ -625,7 +621,7 @@ def test_a_cycle_in_which_every_point_slips_has_no_zone_and_no_error_of_it():
     P, Q = LOAD * np.array([1, 1.5, 1, 0.6]), 0.42 * LOAD * np.array([1.0, 0.0, -1.0, 0.0])
     found = steady_cycle(hertz, P, 0.0, Q, 1.5 * np.array([0.0, 1.0, 0.0, -1.0]))
     assert found.regime == NO_STICK and np.isnan(found.m) and np.isnan(found.error)
-    assert found.work > 0 and found.slip_error > 0
+    assert found.work > 0
 
 
 def test_loads_that_turn_at_no_shear():

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from generated.runtime.cycle import _stick_zone
 from generated.runtime.slip.march import marched
 from generated.runtime.types import Regime
 
@@ -23,7 +24,7 @@ def march(case, P, M, Q, sigma):
     loads = [np.array(v, dtype=float) for v in np.broadcast_arrays(*np.atleast_1d(P, M, Q, sigma))]
     own = {str(i): v[None] for i, v in enumerate(case.own)}
     with np.errstate(all="ignore"):
-        return np.array(marched(case.body, own, np.array([F]), *loads))
+        return np.array(marched(case.body, own, np.array([F]), loads, _stick_zone))
 
 
 def loads(case, shear=0.15, tension=0.0, normal=0.0, way=None):

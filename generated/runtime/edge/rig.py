@@ -22,8 +22,6 @@ from ..types import Contact, Edges, Regime
 from .contact import MATCH_RTOL, contact_of, start_of
 from .near import slip_zone
 
-SIDES = Edges._fields
-
 MAX_SLIP = 0.2
 """Slip zone over contact width above which an edge is not independent of the other one."""
 
@@ -172,7 +170,9 @@ def match(
     rows = [of("K_N", a, c, law), module.K_T(a, c, dQ, dsigma), (a - a_1, c - c_1)]
     rows += [of("L_N", a, c, law), module.L_T(a, c, dQ, dsigma)]
     columns = zip(*rows, strict=True)
-    edges = Edges(*(Edge._make([*map(float, v), s]) for v, s in zip(columns, SIDES, strict=True)))
+    edges = Edges(
+        *(Edge._make([*map(float, v), s]) for v, s in zip(columns, Edges._fields, strict=True))
+    )
     if dQ < 0:
         dQ, dsigma = -dQ, 0.0 - dsigma
     zone = module.stick_zone(first, second, dQ, dsigma, f=f, E_star=E_star, **law)
@@ -273,11 +273,11 @@ def _requests(edge: Any, free: str | None) -> dict[str, Edge]:
     """The data requested of each edge, as numbers."""
     pair = hasattr(edge, "left") and hasattr(edge, "right")  # Edges of any package
     requested: dict[str, Edge] = {}
-    for side, one in zip(SIDES, edge, strict=True) if pair else [("", edge)]:
+    for side, one in zip(Edges._fields, edge, strict=True) if pair else [("", edge)]:
         if not isinstance(one, Edge):
             raise TypeError(f"edge must be an Edge, or Edges of two of them; got {one!r:.60}")
         side = side or one.side
-        if side not in SIDES:
+        if side not in Edges._fields:
             raise ValueError(f"side must be 'left' or 'right'; got {side!r:.40}")
         for name, value in one._asdict().items():
             if name != "side" and not (value is None and name in ("L_N", "L_T")):
@@ -294,7 +294,7 @@ def _requests(edge: Any, free: str | None) -> dict[str, Edge]:
 def _shear(requested: Mapping[str, Edge], h: float) -> tuple[float, float]:
     """dQ and dsigma: sqrt(h) K_T = dQ/pi +- dsigma h/8, 2 h**(3/2) L_T = dQ/pi -+ 3 dsigma h/8."""
     if len(requested) == 2:
-        left, right = (math.sqrt(h) * requested[side].K_T for side in SIDES)
+        left, right = (math.sqrt(h) * requested[side].K_T for side in Edges._fields)
         return math.pi * (left + right) / 2, 4 * (left - right) / h
     ((side, one),) = requested.items()
     force, tension = math.sqrt(h) * one.K_T, 0.0

@@ -8,6 +8,5 @@ zones       stick zones on elements: that of a load step, and the permanent one 
 refine      histories and steady cycles on successively finer meshes, with an estimate of the error
 reversals   moderate tension in phase at constant normal loads: exact, a stack of reversals
 loops       closed loops of P and Q at a constant tilt: the exact stick zone
-lazy        histories of Dask arrays
 public      the functions that a generated module calls
 """

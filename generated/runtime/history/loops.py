@@ -46,10 +46,6 @@ from ..cycle import Own, contact, contact_at_tilt
 from ..types import Array, Contact
 from .nearest import ROUNDING
 
-LEVEL = 1e-10
-"""Tilts that differ by less than this count as equal.  The unit is the tilt of a flat punch whose
-load acts at a distance of a quarter of its width from its centre."""
-
 
 def stick_zone_of_loop(
     body: Body, own: Own, P: Array, M: Array, Q: Array, sigma: Array, *, f: Array, E_star: Array
@@ -65,8 +61,9 @@ def stick_zone_of_loop(
     extremes = np.min(P, axis=-1, keepdims=True), np.max(P, axis=-1, keepdims=True)
     between = np.concatenate([P, sum(extremes) / 2], axis=-1)
     contacts = contact(body, own, np.where(known[..., None], between, np.nan), 0.0, E_star)
+    # the tilt of a flat punch whose load acts at a quarter of its width from its centre
     unit = np.min(P / (E_star * (contacts.a + contacts.c)[..., :-1]), axis=-1)
-    known &= np.ptp(contacts.alpha, axis=-1) <= LEVEL * unit
+    known &= np.ptp(contacts.alpha, axis=-1) <= ROUNDING * unit
     largest = [np.max(sign * Q - f * P, axis=-1, keepdims=True) for sign in (1, -1)]
     load = np.where(known[..., None], -sum(largest) / (2 * f), np.nan)
     zone = contact_at_tilt(body, own, load, contacts.alpha[..., -1:], E_star)

@@ -51,13 +51,13 @@ def nearest(mesh: Elements, trial: Array, bound: Array, status: Array) -> Any:
         if 2 * np.count_nonzero(slips) <= w.size:
             chosen = np.flatnonzero(slips)
             v = np.zeros(w.size)
-            v[chosen] = np.linalg.solve(K[chosen[:, None], chosen], (trial - limit)[chosen])
+            v[chosen] = _solved(K[chosen[:, None], chosen], (trial - limit)[chosen])
             q = np.where(slips, limit, trial - K @ v)
         else:
             chosen = np.flatnonzero(~slips)
             change = np.where(slips, limit - trial, 0.0)
             right = np.column_stack([(A @ change)[chosen], w[chosen]])
-            known, even = np.linalg.solve(A[chosen[:, None], chosen], right).T
+            known, even = _solved(A[chosen[:, None], chosen], right).T
             mu = (w[chosen] @ known - w @ change) / (w[chosen] @ even)
             change[chosen] = mu * even - known
             q, v = trial + change, np.where(slips, mu * w - A @ change, 0.0)
@@ -70,3 +70,10 @@ def nearest(mesh: Elements, trial: Array, bound: Array, status: Array) -> Any:
             wrong = wrong[:1]
         status[wrong] = np.where(beyond, np.sign(q), 0.0)[wrong]
     return None
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    """The solution of a system with a symmetric positive definite matrix, which is overwritten."""
+    from scipy.linalg.lapack import dposv
+
+    return dposv(matrix.T, right, overwrite_a=True)[1] if right.size else right

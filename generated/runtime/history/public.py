@@ -10,11 +10,10 @@ import numpy as np
 
 from ..arrays import Numbers, numbers_of, shape_of
 from ..body import Body
-from ..chunks import any_lazy
-from ..cycle import Own, march, stick_zone
-from ..types import Array, Contact, History, Regime, SteadyCycle, StickZone, Values
+from ..chunks import any_lazy, over_chunks
+from ..cycle import Own, march
+from ..types import Array, History, Regime, SteadyCycle, StickZone, Values
 from . import refine
-from .lazy import WHOLE, over_chunks
 from .loops import stick_zone_of_loop
 from .reversals import exact_history
 
@@ -23,6 +22,9 @@ _LOADS = ("P", "M", "Q", "sigma")
 _INSTANTS = {name: "t" for name in History._fields} | {"q": "t,p", "slip": "t,p"}
 _CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": "p"}
 """Axes of the results: t is time, p the points."""
+
+WHOLE = ("intervals", "regime", "rounds")
+"""Results that are integers."""
 
 MIXED_ERROR = 1e-7
 """Error of a zone from stick_zone with mixed=True, relative to the contact width."""
@@ -47,8 +49,10 @@ def history(
     """Stick zone, shear traction, slip and work at each instant of any load history."""
     numbers = _numbers(own, (P, M, Q, sigma), f, E_star, x, tol)
     if any_lazy(numbers.values()):
-        call = partial(_chunk, history, body, tuple(own))
-        lazy: History = over_chunks(call, History, _INSTANTS, numbers, x, tol)
+        call = partial(history, body, x=x, tol=tol)
+        lazy: History = over_chunks(
+            call, "history", numbers, (own,), _INSTANTS, np.asarray(x).shape
+        )
         return lazy
     found: History = _each(_history, History, _INSTANTS, body, own, numbers, x, tol)
     return found
@@ -69,8 +73,10 @@ def steady_cycle(
     """The steady cycle to which a closed load history settles."""
     numbers = _numbers(own, (P, M, Q, sigma), f, E_star, x, tol)
     if any_lazy(numbers.values()):
-        call = partial(_chunk, steady_cycle, body, tuple(own))
-        lazy: SteadyCycle = over_chunks(call, SteadyCycle, _CYCLES, numbers, x, tol)
+        call = partial(steady_cycle, body, x=x, tol=tol)
+        lazy: SteadyCycle = over_chunks(
+            call, "steady_cycle", numbers, (own,), _CYCLES, np.asarray(x).shape
+        )
         return lazy
     numbers |= dict(zip(_LOADS, _closed([numbers[k] for k in _LOADS]), strict=True))
     zones = _exact(body, tuple(own), numbers)
@@ -78,12 +84,6 @@ def steady_cycle(
         partial(_cycle, zones), SteadyCycle, _CYCLES, body, own, numbers, x, tol
     )
     return found if np.ndim(found.m) else SteadyCycle(*(v if v is None else v[()] for v in found))
-
-
-def _chunk(call: Any, body: Body, own: tuple[str, ...], **given: Any) -> Any:
-    """One chunk of a history of Dask arrays."""
-    parameters = {name: given.pop(name) for name in own}
-    return call(body, parameters, **given)
 
 
 # ---------------------------------------------------------------- arguments and results
@@ -159,7 +159,7 @@ def _each(
         with _one_thread()(), np.errstate(all="ignore"):
             found = solve(at, body, parameters, f, loads, points, tol)
         for name, value in found._asdict().items():
-            scale = E_star if name in ("q", "work", "work_error", "shear_error") else 1
+            scale = E_star if name in ("q", "work") else 1
             results[name][(*at, *(slice(length) for length in np.shape(value)))] = scale * value
     for name, axis in axes.items():
         if "p" in axis:
@@ -231,31 +231,16 @@ def _exact(body: Body, own: tuple[str, ...], numbers: Numbers) -> tuple[StickZon
     shape = shape_of(numbers)
     full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
     P, M, Q, sigma = (full.pop(name) for name in _LOADS)
-    states = march(
-        body, {name: full[name] for name in own}, P, M, Q, sigma, full["f"], full["E_star"]
-    )
+    loads, held = (P, M, Q, sigma), {name: full[name] for name in own}
+    states = march(body, held, *loads, full["f"], full["E_star"], mixed=True)
     code = np.asarray(states.regime[..., 0])
-    uniform = np.all(states.regime == code[..., None], axis=-1)
-    known = uniform & np.isin(code, (Regime.MODERATE, Regime.LARGE, Regime.FULL_STICK))
-    m, n = (np.where(known, np.min(v, axis=-1), np.nan) for v in (states.m, states.n))
-    constant = np.all((P[..., :1] == P) & (M[..., :1] == M), axis=-1)
-    mixed = np.asarray(uniform & constant & (code == Regime.MIXED))
-    if np.any(mixed):
-        load = np.where(np.ptp(Q, axis=-1)[..., None] > 0, Q, sigma)
-        low, high = (at(load, axis=-1)[..., None] for at in (np.argmin, np.argmax))
-        changes = [
-            np.take_along_axis(v, high, -1) - np.take_along_axis(v, low, -1) for v in (Q, sigma)
-        ]
-        dQ, dsigma = (v[mixed, 0] for v in changes)
-        held = {name: value[..., 0][mixed] for name, value in full.items()}
-        here = Contact(states.a[mixed, 0], states.c[mixed, 0], np.nan)
-        f, E_star = held.pop("f"), held.pop("E_star")
-        m[mixed], n[mixed], _ = stick_zone(body, held, here, here, dQ, dsigma, f, E_star, True)
+    known = np.all(states.regime == code[..., None], axis=-1)
+    m, n = (np.where(known, np.fmin.reduce(v, axis=-1), np.nan) for v in states[2:4])
     rest = np.isnan(m)
     if np.any(rest):
-        loads = (np.broadcast_to(v, shape)[rest] for v in (P, M, Q, sigma))
+        given = (v[rest] for v in loads)
         held = {name: value[rest] for name, value in full.items()}
         f, E_star = held.pop("f"), held.pop("E_star")
-        m[rest], n[rest], _ = stick_zone_of_loop(body, held, *loads, f=f, E_star=E_star)
+        m[rest], n[rest], _ = stick_zone_of_loop(body, held, *given, f=f, E_star=E_star)
         code = np.where(rest & np.isfinite(m), Regime.MODERATE, code)
     return StickZone(m, n, code), np.where(code == Regime.MIXED, MIXED_ERROR, 0.0)

@@ -6,9 +6,9 @@ stick zones that were found on the mesh before.  The refinement ends when the es
 below the tolerance, or with the finest mesh.
 
 The estimated error is SAFETY times the difference between the last two meshes, which exceeds the
-error of the last one.  Of the shear traction the mean difference over the contact counts, of slip
-the largest at any point, of the work that of its density, added up over the contact.  For m and n
-the distance between the elements is added that the end of a stick zone lies between.
+error of the last one.  For m and n the distance between the elements is added that the end of a
+stick zone lies between.  Of the shear traction in a history the mean difference over the contact
+counts.
 
 E* = 1 throughout.
 """
@@ -51,27 +51,42 @@ REPEATED = 1e-6
 """A cycle has settled if slip changes by less than this fraction of the largest slip."""
 
 
+class _Found(NamedTuple):
+    """A result on one mesh, and what the next mesh and the error need of it.
+
+    result   a History or a SteadyCycle whose error is not known yet
+    mesh     None if the contact of a cycle is lost or slides
+    between  the distance between the elements that the ends of a stick zone lie between
+    values   of the elements: shear at each instant of a history; slip in the last round of a cycle,
+             forward plus backward
+    """
+
+    result: Any
+    mesh: Any
+    between: Any
+    values: Any
+
+
 def _refined(solve: Callable[..., Any], compare: Callable[..., Any], tol: float) -> Any:
-    """The result on the last mesh, and its errors.
+    """The result on the last mesh, with its error.
 
     solve: solves the problem with a number of elements, from the result on the mesh before.
-    compare: the errors by comparison with the mesh before, the first of which is compared with the
-        tolerance.
+    compare: the error by comparison with the mesh before.
     """
     count, finest = FEWEST, FEWEST * (4 if tol >= 1e-3 else 8 if tol >= 1e-4 else 16)
     found = solve(count, None)
     while True:
         coarse, count = found, 2 * count
         found = solve(count, coarse)
-        errors = compare(found, coarse)
-        if count >= finest or np.all((errors[0] <= tol) | np.isnan(found.m)):
-            return found, errors
+        error = compare(found, coarse)
+        if count >= finest or np.all((error <= tol) | np.isnan(found.result.m)):
+            return found.result._replace(error=error)
 
 
 def _elements(body: Body, own: Own, way: Path, coarse: Any, count: int) -> Elements:
     """The elements for a path; they end at kinks, and where an edge rests, because slip jumps."""
     at = way.instant >= 0
-    stick_ends = np.empty(0) if coarse is None else np.append(-coarse.m, coarse.n)
+    stick_ends = np.empty(0) if coarse is None else np.append(-coarse.result.m, coarse.result.n)
     low, high = -np.nanmax(way.a), np.nanmax(way.c)
     breaks = breaks_of(body, own)
     points = np.concatenate([[low, high], breaks, -way.a[at], way.c[at], stick_ends])
@@ -80,17 +95,12 @@ def _elements(body: Body, own: Own, way: Path, coarse: Any, count: int) -> Eleme
     return elements_of(mesh(points[(low <= points) & (points <= high)], fixed, count))
 
 
-def _zone_error(fine: Any, coarse: Any, h: Array) -> Array:
+def _zone_error(fine: _Found, coarse: _Found, h: Array) -> Array:
     """The error of m and n relative to the width h; a zone on only one of two meshes is unknown."""
-    change = np.maximum(abs(fine.m - coarse.m), abs(fine.n - coarse.n)) / h
-    change = np.where(np.isnan(change), 1.0 * (np.isnan(fine.m) != np.isnan(coarse.m)), change)
+    new, old = fine.result, coarse.result
+    change = np.maximum(abs(new.m - old.m), abs(new.n - old.n)) / h
+    change = np.where(np.isnan(change), 1.0 * (np.isnan(new.m) != np.isnan(old.m)), change)
     return SAFETY * change + fine.between / h
-
-
-def _apart(fine: Any, coarse: Any, name: str) -> Array:
-    """The differences between two meshes at the elements of the finer one."""
-    there = value_at(coarse.mesh, getattr(coarse, name), fine.mesh.middles)
-    return abs(getattr(fine, name) - there)
 
 
 def _shear_at(
@@ -106,7 +116,7 @@ def _shear_at(
     sticks = np.clip(value_at(mesh, shear, x), -bound, bound)
     with np.errstate(invalid="ignore"):
         q = np.where(status[:, k] != 0, status[:, k] * bound, sticks)
-        return np.where(np.isnan(x), np.nan, q)
+        return np.where(np.isnan(x) | np.isnan(shear[:, :1]), np.nan, q)
 
 
 def _slip_at(mesh: Elements, x: Array, slip: Array) -> Array:
@@ -118,30 +128,8 @@ def _slip_at(mesh: Elements, x: Array, slip: Array) -> Array:
 # ---------------------------------------------------------------- histories
 
 
-class _Instants(NamedTuple):
-    """A history on one mesh: results as in History, and those of the elements, a row per instant.
-
-    between  the distance between the elements that the ends of the stick zone lie between
-    density  frictional work per length up to the instant
-    """
-
-    mesh: Elements
-    a: Array
-    c: Array
-    m: Array
-    n: Array
-    between: Array
-    intervals: Array
-    regime: Array
-    work: Array
-    shear: Array
-    status: Array
-    slip: Array
-    density: Array
-
-
 def history(body: Body, own: Own, f: float, loads: Array, x: Array, tol: float) -> History:
-    """A history with its errors, on as many meshes as it needs.
+    """A history with its error, on as many meshes as it needs.
 
     loads: P, M, Q and sigma, one row each.
     """
@@ -149,117 +137,75 @@ def history(body: Body, own: Own, f: float, loads: Array, x: Array, tol: float) 
         none, whole = np.full(loads.shape[1], np.nan), np.zeros(loads.shape[1], dtype=np.int64)
         field = np.full((loads.shape[1], x.size), np.nan)
         zone = none, none, none, none, whole, whole
-        return History(*zone, field, field, none, none, none, none)
-    found, errors = _refined(
-        partial(_history_on, body, own, f, loads), partial(_compare_instants, f * loads[0]), tol
+        return History(*zone, field, field, none, none)
+    found: History = _refined(
+        partial(_history_on, body, own, f, loads, x), partial(_compare_instants, f * loads[0]), tol
     )
-    state = found.a, found.c, found.shear, found.status
-    q = np.where(
-        np.isnan(found.shear[:, :1]), np.nan, _shear_at(body, own, f, found.mesh, x, state)
-    )
-    slip = _slip_at(found.mesh, x, found.slip)
-    zone = found.a, found.c, found.m, found.n, found.intervals, found.regime
-    return History(*zone, q, slip, found.work, *errors)
+    return found
 
 
 def _history_on(
-    body: Body, own: Own, f: float, loads: Array, count: int, coarse: _Instants | None
-) -> _Instants:
+    body: Body, own: Own, f: float, loads: Array, x: Array, count: int, coarse: _Found | None
+) -> _Found:
     """The history on one mesh."""
     way = path(body, own, f, loads, REACH / count, count // FEWEST, True)
     mesh = _elements(body, own, way, coarse, count)
     interface, instants = Interface(body, own, f, way, mesh), loads.shape[1]
     m, n, between = np.full((3, instants), np.nan)
     intervals, regime = np.zeros((2, instants), dtype=np.int64)
-    shear, status, slip, density = np.full((4, instants, count), np.nan)
-    slipped, worked, now = np.zeros(count), np.zeros(count), Regime.NONE
+    shear, status, slip = np.full((3, instants, count), np.nan)
+    work, slipped, worked, now = np.full(instants, np.nan), np.zeros(count), 0.0, Regime.NONE
     for row in range(1, way.a.size):
         if now != Regime.UNSOLVED:
             now = interface.step(row)
-            slipped, worked = slipped + interface.slip, worked + interface.work
+            slipped = slipped + interface.slip
+            worked += interface.work @ mesh.widths
         j = way.instant[row]
         if j < 0:
             continue
         regime[j] = now
         if now in (Regime.NONE, Regime.UNSOLVED):
             continue
-        shear[j], status[j], slip[j], density[j] = (
-            interface.shear,
-            interface.status,
-            slipped,
-            worked,
-        )
+        shear[j], status[j], slip[j] = interface.shear, interface.status, slipped
+        work[j] = worked
         m[j], n[j], intervals[j], between[j] = sticking(
             mesh, interface.shear, interface.bound, interface.status, way.a[row], way.c[row]
         )
     a, c = way.a[way.instant >= 0], way.c[way.instant >= 0]
-    zone = m, n, between, intervals, regime, density @ mesh.widths
-    return _Instants(mesh, a, c, *zone, shear, status, slip, density)
+    q = _shear_at(body, own, f, mesh, x, (a, c, shear, status))
+    zone = a, c, m, n, intervals, regime
+    found = History(*zone, q, _slip_at(mesh, x, slip), work, between)
+    return _Found(found, mesh, between, shear)
 
 
-def _compare_instants(limit: Array, fine: _Instants, coarse: _Instants) -> tuple[Array, ...]:
-    """The errors of a history: of zone and shear, of work, and of slip; limit is f P."""
-    unsolved = (fine.regime == Regime.UNSOLVED) | (coarse.regime == Regime.UNSOLVED)
-    shear = SAFETY * _apart(fine, coarse, "shear") @ fine.mesh.widths / limit
-    error = np.maximum(_zone_error(fine, coarse, fine.a + fine.c), shear)
-    error[unsolved] = np.nan
-    work = SAFETY * _apart(fine, coarse, "density") @ fine.mesh.widths
-    return error, work, SAFETY * np.max(_apart(fine, coarse, "slip"), axis=1)
+def _compare_instants(limit: Array, fine: _Found, coarse: _Found) -> Array:
+    """The error of zone and shear at each instant; limit is f P."""
+    new, old = fine.result, coarse.result
+    unsolved = (new.regime == Regime.UNSOLVED) | (old.regime == Regime.UNSOLVED)
+    apart = abs(fine.values - value_at(coarse.mesh, coarse.values, fine.mesh.middles))
+    shear = SAFETY * apart @ fine.mesh.widths / limit
+    return np.where(unsolved, np.nan, np.maximum(_zone_error(fine, coarse, new.a + new.c), shear))
 
 
 # ---------------------------------------------------------------- steady cycles
 
 
-class _Round(NamedTuple):
-    """The last round of a cycle on one mesh: results as in SteadyCycle, and those of the elements.
-
-    between     the distance between the elements that the ends of the stick zone lie between
-    a, c        the contact at the first instant, whose shear and status follow
-    slip_range  slip range in the round
-    density     frictional work per length in the round
-    total       slip in the round, forward plus backward
-    """
-
-    mesh: Any
-    m: float
-    n: float
-    between: float
-    regime: Regime
-    work: float
-    rounds: int
-    drift: float
-    a: float
-    c: float
-    shear: Any
-    status: Any
-    slip_range: Any
-    density: Any
-    total: Any
-
-
 def steady_cycle(body: Body, own: Own, f: float, loads: Array, x: Array, tol: float) -> SteadyCycle:
-    """A steady cycle with its errors, on as many meshes as it needs.
+    """A steady cycle with its error, on as many meshes as it needs.
 
     loads: P, M, Q and sigma, one row each; those of the last instant are those of the first.
     """
     nan, none = math.nan, np.full(x.size, np.nan)
     touches = touching(body, own, *loads[:2])[0] > -math.inf
     if not (np.all(touches) and np.all(np.isfinite(loads)) and f > 0):
-        return SteadyCycle(nan, nan, Regime.NONE, none, none, nan, 0, nan, nan, nan, nan, nan)
-    found, errors = _refined(partial(_cycle_on, body, own, f, loads), _compare_rounds, tol)
-    zone = found.m, found.n, found.regime
-    q = slip = none
-    if found.mesh is not None:
-        edges = np.array([[found.a], [found.c]])
-        state = (*edges, found.shear[None], found.status[None])
-        q = _shear_at(body, own, f, found.mesh, x, state)[0]
-        slip = _slip_at(found.mesh, x, found.slip_range)
-    return SteadyCycle(*zone, slip, q, found.work, found.rounds, found.drift, *errors)
+        return SteadyCycle(nan, nan, Regime.NONE, none, none, nan, 0, nan, nan)
+    found: SteadyCycle = _refined(partial(_cycle_on, body, own, f, loads, x), _compare_rounds, tol)
+    return found
 
 
 def _cycle_on(
-    body: Body, own: Own, f: float, loads: Array, count: int, coarse: _Round | None
-) -> _Round:
+    body: Body, own: Own, f: float, loads: Array, x: Array, count: int, coarse: _Found | None
+) -> _Found:
     """The steady cycle on one mesh."""
     least = count // FEWEST  # the first steps apply the loads of the first instant
     way = path(body, own, f, loads, REACH / count, least, False)
@@ -267,14 +213,17 @@ def _cycle_on(
     interface, always = Interface(body, own, f, way, mesh), np.ones(count, dtype=bool)
     before, drift, nan = np.zeros(count), math.inf, math.nan
     for rounds in range(MAX_ROUNDS + 1):
-        total, work, slip, low, high = np.zeros((5, count))
+        total, slip, low, high = np.zeros((4, count))
+        work = 0.0
         for row in range(1, least + 1) if rounds == 0 else range(least + 1, way.a.size):
             regime = interface.step(row)
             if regime not in (Regime.COMPUTED, Regime.FULL_STICK):
-                return _Round(None, nan, nan, nan, regime, nan, 0, *[nan] * 8)
+                none = np.full(x.size, nan)
+                lost = SteadyCycle(nan, nan, regime, none, none, nan, 0, nan, nan)
+                return _Found(lost, None, nan, nan)
             always &= interface.bound > 0
-            total, work = total + abs(interface.slip), work + interface.work
-            slip = slip + interface.slip
+            total, slip = total + abs(interface.slip), slip + interface.slip
+            work += interface.work @ mesh.widths
             low, high = np.minimum(low, slip), np.maximum(high, slip)
         most = np.max(total)
         drift = np.max(abs(total - before)) / most if most > 0 else 0.0
@@ -287,26 +236,21 @@ def _cycle_on(
         # where nothing slips, elements may slip a little, but less as the mesh is refined
         less = total
         if coarse is not None and coarse.mesh is not None:
-            fallen = value_at(coarse.mesh, coarse.total, mesh.middles) - total
+            fallen = value_at(coarse.mesh, coarse.values, mesh.middles) - total
             less = np.clip(total - fallen, 0.0, total)
         m, n, between = permanent(mesh, total, less <= NO_SLIP / count * most, always)
         regime = Regime.NO_STICK if math.isnan(m) else Regime.COMPUTED
         m, n = min(m, a), min(n, c)
-    state = way.a[-1], way.c[-1], interface.shear, interface.status
-    zone = m, n, between, regime, work @ mesh.widths, rounds, drift
-    return _Round(mesh, *zone, *state, high - low, work, total)
+    state = way.a[-1:], way.c[-1:], interface.shear[None], interface.status[None]
+    q = _shear_at(body, own, f, mesh, x, state)[0]
+    slip = _slip_at(mesh, x, high - low)
+    found = SteadyCycle(m, n, regime, slip, q, work, rounds, drift, between)
+    return _Found(found, mesh, between, total)
 
 
-def _compare_rounds(fine: _Round, coarse: _Round) -> tuple[float, ...]:
-    """The errors of a steady cycle: of zone, work, slip range and shear."""
-    if fine.mesh is None or coarse.mesh is None:
-        return (math.nan,) * 4
-    error = _zone_error(fine, coarse, fine.m + fine.n)
-    if fine.drift > REPEATED:
-        error = math.inf
-    if fine.regime == Regime.NO_STICK:
-        error = math.nan
-    work = SAFETY * _apart(fine, coarse, "density") @ fine.mesh.widths + fine.drift * fine.work
-    slip = SAFETY * np.max(_apart(fine, coarse, "slip_range"))
-    shear = SAFETY * _apart(fine, coarse, "shear") @ fine.mesh.widths / (fine.a + fine.c)
-    return error, work, slip, shear
+def _compare_rounds(fine: _Found, coarse: _Found) -> Any:
+    """The error of the stick zone of a steady cycle."""
+    found = fine.result
+    if fine.mesh is None or coarse.mesh is None or found.regime == Regime.NO_STICK:
+        return math.nan
+    return _zone_error(fine, coarse, found.m + found.n) if found.drift <= REPEATED else math.inf

@@ -26,13 +26,6 @@ equal, the change of the branch cancels that of the branch before.  These are al
 shear problem, whose solution is unique.
 
 This is return-point memory, after Cattaneo and Mindlin, Jaeger, and Ciavarella.
-
-The slope of the gap outside [-m, n] is
-
-    (w(x)/pi) int_-m^n (g'(x) - g'(s))/((x - s) sqrt((m + s)(n - s))) ds,
-
-w = sqrt((x + m)(x - n)), negative on the left.  This slope follows from g' outside the contact
-as the pressure follows from g' inside.
 """
 
 import math
@@ -43,7 +36,10 @@ import numpy as np
 from ..body import Body
 from ..cycle import Own, contact, contact_at_tilt, pressure
 from ..forward import breaks_of
-from ..kernels import kernel, loop, opened
+from ..kernels import loop, opened
+from ..slip.cycles import Cycle
+from ..slip.quadrature import FINEST, ROUGH, slip_zone
+from ..slip.shear import slip
 from ..types import Array, History, Regime
 from .nearest import ROUNDING
 
@@ -51,103 +47,22 @@ IN_PHASE = 1e-9
 """Largest difference between sigma and k Q, relative to the largest sigma."""
 
 
-def _gauss(count: int) -> tuple[Array, Array]:
-    """Gauss's rule on (0, 1)."""
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    return (1 + nodes) / 2, weights / 2
-
-
-def _gauss_with_ends(count: int) -> tuple[Array, Array]:
-    """The same, for a function that has a square root or a logarithm at both ends."""
-    s, weights = _gauss(count)
-    nodes = s**4 * (35 - 84 * s + 70 * s**2 - 20 * s**3)
-    return nodes, weights * 140 * s**3 * (1 - s) ** 3
-
-
-_NODES, _WEIGHTS = _gauss(14)
-_PLACES, _LENGTHS = _gauss_with_ends(24)
-
-
-# ---------------------------------------------------------------- one branch
-
-
-@kernel
-def _next_break(breaks: Any, low: float, high: float) -> float:
-    """The first break between `low` and `high`, or `high` if there is none."""
-    for x in breaks:
-        if low < x < high:
-            high = x
-    return high
-
-
-@kernel
-def _gap_slope(law: Any, own: Any, breaks: Any, m: float, n: float, x: float) -> float:
-    """The slope of the gap at a point x outside [-m, n]."""
-    half, mid, here, total = (m + n) / 2, (n - m) / 2, law.slope(x, own)[0], 0.0
-    low = -m
-    while low < n:
-        high = _next_break(breaks, low, n)
-        start = math.acos(min(max((high - mid) / half, -1.0), 1.0))
-        width = math.acos(min(max((low - mid) / half, -1.0), 1.0)) - start
-        for i in range(_NODES.size):
-            s = mid + half * math.cos(start + width * _NODES[i])
-            total += width * _WEIGHTS[i] * (here - law.slope(s, own)[0]) / (x - s)
-        low = high
-    return math.sqrt((x + m) * (x - n)) / math.pi * total
-
-
-@kernel
-def gap(law: Any, own: Any, breaks: Any, m: float, n: float, x: float) -> float:
-    """The gap at x outside the contact [-m, n]; zero inside it."""
-    if -m <= x <= n:
-        return 0.0
-    total, low = 0.0, n if x > n else x
-    end = x if x > n else -m
-    while low < end:
-        high = _next_break(breaks, low, end)
-        for i in range(_NODES.size):
-            # next to the contact the slope is like the square root of the distance
-            t, rest = _NODES[i], 1 - _NODES[i]
-            node = low + (high - low) * (t * t if x > n else 1 - rest * rest)
-            weight = 2 * (high - low) * _WEIGHTS[i] * (t if x > n else rest)
-            total += weight * _gap_slope(law, own, breaks, m, n, node)
-        low = high
-    return total
-
-
-@kernel
-def _dissipated(law: Any, own: Any, breaks: Any, edges: Any, m: float, n: float) -> float:
-    """Frictional work of a branch, int f p slip dx.
-
-    edges: a, c, and then f.
-    """
-    total = 0.0
-    for side in range(2):
-        low, end = (-edges[0], -m) if side == 0 else (n, edges[1])
-        while low < end:
-            high = _next_break(breaks, low, end)
-            for i in range(_PLACES.size):
-                # the pressure is like a square root at an edge, and like a logarithm at a corner
-                x = low + (high - low) * _PLACES[i]
-                p = law.pressure(x, edges[0], edges[1], own)
-                if 0 < p < math.inf:
-                    total += (high - low) * _LENGTHS[i] * p * gap(law, own, breaks, m, n, x)
-            low = high
-    return 2 * edges[2] ** 2 * total
-
-
 @loop
 def each_branch(law: Any, given: Any, points: Any, own: Any, out: Any) -> None:
-    """a, c, m, n, f -> frictional work, then slip at the points."""
+    """a, c, m, n, f -> frictional work, int f p slip dx, then slip at the points."""
     law = opened(law)
-    breaks = law.breaks(own[0])
     for i in range(given.shape[0]):
         a, c, m, n, f = given[i, 0], given[i, 1], given[i, 2], given[i, 3], given[i, 4]
-        out[i, 0] = _dissipated(law, own[0], breaks, np.array([a, c, f]), m, n)
+        cycle, zone, work = Cycle(a, c, a, c, 0.0, 0.0, f), (m, n, Regime.MODERATE.value), 0.0
+        for side, start, edge in ((-1.0, m, a), (1.0, n, c)):
+            slips = slip_zone(law, own[0], cycle, side, edge - start, math.nan, ROUGH)
+            for k in range(slips.y.size):
+                x = side * min(start + slips.y[k], edge)
+                slipped = slip(law, own[0], cycle, zone, x, ROUGH)
+                work += slips.weight[k] * slips.r[k] / 2 * slipped
+        out[i, 0] = work
         for k in range(points.shape[1]):
-            out[i, 1 + k] = math.nan
-            if -a <= points[0, k] <= c:
-                out[i, 1 + k] = 2 * f * gap(law, own[0], breaks, m, n, points[0, k])
+            out[i, 1 + k] = slip(law, own[0], cycle, zone, points[0, k], FINEST)
 
 
 # ---------------------------------------------------------------- the stack
@@ -247,5 +162,5 @@ def exact_history(body: Body, own: Own, f: float, loads: Array, x: Array) -> His
     regime = np.where(D > 0, Regime.MODERATE, Regime.FULL_STICK)
     whole, exact = np.ones(D.size, dtype=np.int64), np.zeros(D.size)
     zone = a * full, c * full, m, n, whole, regime
-    q, slip, work = stack.sums(change), stack.sums(out[:, 1:]), stack.total(out[:, 0])
-    return History(*zone, q, slip, work, exact, exact, exact)
+    slips, work = stack.sums(out[:, 1:]), stack.total(out[:, 0])
+    return History(*zone, stack.sums(change), slips, work, exact)

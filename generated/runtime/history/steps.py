@@ -107,5 +107,5 @@ class Interface:
                 with np.errstate(all="ignore"):
                     left = (np.max(a) + mesh.middles) / abs(a[1] - a[0])
                     right = (np.max(c) - mesh.middles) / abs(c[1] - c[0])
-                part = np.clip(np.nan_to_num(np.minimum(left, right)), 0.0, 1.0)
+                part = np.clip(np.fmin(left, right), 0.0, 1.0)
         self.slip, self.work = part * slip, mean * abs(slip)

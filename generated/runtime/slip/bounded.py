@@ -41,7 +41,7 @@ from ..kernels import kernel
 from ..search import between, narrowed
 from ..types import Regime
 from .cycles import drives, turning_width
-from .newton import log_step, moved
+from .newton import MAX_STEPS, log_step, moved
 from .quadrature import RULES, slip_zone
 
 NEWTON_RTOL = 1e-4
@@ -54,9 +54,6 @@ close to each other, because the error of a rule is then the square of that of t
 
 MIN_GAP = 0.05
 """Singularities of r that are closer to each other than this part of a slip zone are close."""
-
-MAX_STEPS = 40
-"""Largest number of steps of Newton's method."""
 
 LONGEST_STEP = 2.0
 """Longest step of Newton's method in the logarithm of a slip zone over the stick zone."""
@@ -101,7 +98,7 @@ def slipping_in(cycle: Any, regime: float) -> Slipping:
 
 
 @kernel
-def _integrals(zone: Any, stuck: float) -> Any:
+def integrals(zone: Any, stuck: float) -> Any:
     """int r/u, int r u, C and D of the module's docstring over one slip zone."""
     near = far = beyond = 0.0
     first = zone.at_start / math.sqrt(stuck)
@@ -129,8 +126,8 @@ def _sums(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -> 
     stuck = of.a + of.c - left - right
     on_left = slip_zone(law, own, of.cycle, -1.0, left, math.nan, rule)
     on_right = slip_zone(law, own, of.cycle, 1.0, right, math.nan, rule)
-    near_left, far_left, C_left, D_left = _integrals(on_left, stuck)
-    near_right, far_right, C_right, D_right = _integrals(on_right, stuck)
+    near_left, far_left, C_left, D_left = integrals(on_left, stuck)
+    near_right, far_right, C_right, D_right = integrals(on_right, stuck)
     return (
         of.kappa * near_left + of.lamda * far_right,
         of.kappa * far_left + of.lamda * near_right,

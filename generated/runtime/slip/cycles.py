@@ -20,9 +20,6 @@ from ..kernels import kernel, shared
 MAX_EDGE_ROUNDING = 1e-6
 """Largest shift of an edge due to rounding of the tilt, relative to the width."""
 
-TURN_RTOL = 1e-9
-"""The point where an edge turns round is sought to this part of the way between two contacts."""
-
 
 class Cycle(NamedTuple):
     """A half-cycle that raises the shear load, and the friction.
@@ -139,14 +136,14 @@ def narrowest(law: Any, own: Any, cycle: Any, ends: Any) -> Any:
     An edge may recede and then advance, for instance under a constant moment.  The right edge is at
     rest where dM + (mid - h/4) dP = 0.  There mid - h/4 = (c - 3 a)/4 changes by -(3/4) da, and da
     has the sign of dP.  An edge therefore turns round at most once, and only from receding to
-    advancing.
+    advancing.  Its least distance is exact, because it is at rest there.
     """
     least_a, least_c = min(cycle.a_1, cycle.a_2), min(cycle.c_1, cycle.c_2)
     for side in range(2):
         first = advances(ends, cycle.a_1, cycle.c_1)[side]
         last = advances(ends, cycle.a_2, cycle.c_2)[side]
         low, high = 0.0, 1.0
-        while first < 0 < last and high - low > TURN_RTOL:
+        while first < 0 < last and high - low > math.sqrt(EPS):
             part = (low + high) / 2
             a, c, _ = on_the_way(law, own, ends, part)
             if advances(ends, a, c)[side] < 0:

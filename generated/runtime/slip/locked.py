@@ -37,9 +37,6 @@ from .zone import each_zone_of_regime
 POINTS = 200
 """Number of points at which the limits are integrated."""
 
-LIMITED = (Regime.LARGE, Regime.FULL_STICK)
-"""The regimes in which a stick zone may not carry every shear load below sliding."""
-
 LIMIT_RTOL = 1e-3
 """Allowance for the error of the integrals, relative to f P."""
 

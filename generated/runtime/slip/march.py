@@ -15,6 +15,7 @@ one state to the other, the history is taken for a first loading and not for a c
 All loads are divided by E*.  Time lies along the last axis, which constants keep with length one.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,8 +24,8 @@ from ..arrays import solved
 from ..body import Body
 from ..forward import UNIT, each_contact
 from ..types import Array, Contact, Edges, March, Regime, StickZone
-from .locked import LIMITED, carries
-from .zone import each_stick_zone, each_zone_of_regime
+from .locked import carries
+from .zone import each_zone_of_regime
 
 MAX_LAST_STEP = 0.99
 """Largest step from the last instant back to the first, as a part of the way between the states."""
@@ -55,34 +56,45 @@ class _Way(NamedTuple):
 
 
 def marched(
-    body: Body, own: dict[str, Any], f: Array, P: Array, M: Array, Q: Array, sigma: Array
+    body: Body,
+    own: dict[str, Any],
+    f: Array,
+    loads: list[Array],
+    solve: Callable[..., StickZone],
 ) -> March:
-    """Steady cycles instant by instant, for E* = 1.  The shapes are equal, but for constants."""
+    """Steady cycles instant by instant, for E* = 1.
+
+    f and own may have one instant instead of all
+    loads: P, M, Q and sigma, of equal shapes
+    solve: solves for stick zones; takes a body, a half-cycle, constants and parameters, by name
+    """
+    P, M, Q, sigma = loads
     contact = solved(each_contact, body, {"P": P, "M": M}, UNIT, own, Contact)
-    loads, roundings = np.stack([P, M, Q, sigma]), _roundings(contact, f, P, M, Q, sigma)
-    way = _way(loads, roundings)
+    every, roundings = np.stack(loads), _roundings(contact, f, P, M, Q, sigma)
+    way = _way(every, roundings)
     ends = [at(way.progress, axis=-1)[..., None] for at in (np.argmin, np.argmax)]
-    low, high = (_at(loads, end) for end in ends)
+    low, high = (_at(every, end) for end in ends)
     whole = _half_cycle(contact, (ends[0], ends[1]), high - low, roundings)
     constants = {"f": f, **UNIT}
-    m, _, regime = solved(each_stick_zone, body, whole, constants, own, StickZone, ("regime",))
-    refused, refusal = _refusal(way, loads, contact, f)
-    regime = np.where(refused, refusal, regime)
-    for case in map(tuple, np.argwhere(np.isin(regime[..., 0], LIMITED))):
+    m, n, code = solve(body, whole, constants, own)
+    refused, refusal = _refusal(way, every, contact, f)
+    regime: Array = np.where(refused, refusal, code)
+    limited = np.isin(regime[..., 0], (Regime.LARGE, Regime.FULL_STICK))
+    for case in map(tuple, np.argwhere(limited)):
         parameters = {name: value[case][0] for name, value in own.items()}
         first, last = (load[(slice(None), *case, 0)] for load in (low, high))
         if not carries(body, parameters, f[case][0], first, last, regime[case][0]):
             m[case], regime[case] = np.nan, Regime.NO_STICK
 
-    # part of the whole half-cycle up to each instant; of a mixed one at most the ends are known
+    # part of the whole half-cycle up to each instant; of a mixed one only the ends are known
     sense = np.where(_at(way.progress, way.start) == 0, 1, -1)
-    rise = sense * (loads - _at(loads, way.start))
+    rise = sense * (every - _at(every, way.start))
     now = np.broadcast_to(np.arange(P.shape[-1]), P.shape)
     part = _half_cycle(contact, (way.start, now), rise, roundings)
-    part["regime"] = np.where(regime == Regime.MIXED, Regime.MODERATE, regime)
-    at_end = way.progress == (1 + sense) / 2
-    asked = ~refused & ~np.isnan(m) & ((regime != Regime.MIXED) | at_end)
-    zone = np.full((2, *P.shape), np.nan)
+    part["regime"] = regime
+    mixed = (regime == Regime.MIXED) & (way.progress == (1 + sense) / 2)
+    asked = np.broadcast_to(~np.isnan(m) & ~refused & (regime != Regime.MIXED), P.shape)
+    zone = np.where(mixed, [m, n], np.nan)
     given, constants, own = (
         {name: np.broadcast_to(value, P.shape)[asked] for name, value in values.items()}
         for values in (part, constants, own)

@@ -9,6 +9,9 @@ from typing import Any
 
 from ..kernels import kernel
 
+MAX_STEPS = 40
+"""Largest number of steps; four to six are common."""
+
 
 @kernel
 def log_step(left: float, right: float, one: Any, other: Any, stuck: float) -> Any:

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+from ..elementary import EPS
 from ..kernels import kernel
 from .cycles import is_steady
 
@@ -48,9 +49,21 @@ def double_exponential(step: float) -> Any:
     return q, step * math.pi * np.cosh(t) * q * rest
 
 
-_ALL = [double_exponential(0.3 * 2.0**-k) for k in range(RULES)]
-_NODES, _WEIGHTS = np.concatenate(_ALL, axis=1)
-_FIRST = np.cumsum([0, *(len(nodes) for nodes, _ in _ALL)])
+def _rules() -> Any:
+    """The nodes and weights of all rules, and the number of the first node of each rule.
+
+    Nodes that rounding puts at the far end are left out if their weights are below rounding, too.
+    """
+    found, first = [], [0]
+    for k in range(RULES):
+        nodes, weights = double_exponential(0.3 * 2.0**-k)
+        counts = (nodes < 1) | (weights > EPS)
+        found.append(np.stack([nodes[counts], weights[counts]]))
+        first.append(first[-1] + int(np.sum(counts)))
+    return np.concatenate(found, axis=1), np.array(first)
+
+
+_RULES, _FIRST = _rules()
 
 
 @kernel
@@ -70,6 +83,25 @@ def limit(law: Any, own: Any, cycle: Any, x: float) -> float:
 
 
 @kernel
+def cut_rule(length: float, cuts: Any, rule: int) -> Any:
+    """Nodes and weights of a rule on (0, length), cut at those of the given points inside it."""
+    first, last = _FIRST[rule], _FIRST[rule + 1]
+    nodes = np.empty((2, (cuts.size + 1) * (last - first)))
+    count, low = 0, 0.0
+    while low < length:
+        high = length
+        for cut in cuts:
+            if low < cut < high:
+                high = cut
+        for i in range(first, last):
+            nodes[0, count] = low + (high - low) * _RULES[0, i]
+            nodes[1, count] = (high - low) * _RULES[1, i]
+            count += 1
+        low = high
+    return nodes[0, :count], nodes[1, :count]
+
+
+@kernel
 def slip_zone(
     law: Any, own: Any, cycle: Any, side: float, inner: float, cut: float, rule: int
 ) -> SlipZone:
@@ -80,21 +112,13 @@ def slip_zone(
     """
     edge_1, edge_2 = (cycle.a_1, cycle.a_2) if side < 0 else (cycle.c_1, cycle.c_2)
     start, length = min(edge_1, edge_2) - inner, inner + abs(edge_1 - edge_2)
-    breaks, first, last = law.breaks(own), _FIRST[rule], _FIRST[rule + 1]
-    nodes = np.empty((3, (breaks.size + 3) * (last - first)))
-    count, low = 0, 0.0
-    while low < length:
-        high = inner if low < inner else length
-        if low < side * cut - start < high:
-            high = side * cut - start
-        for at in breaks:
-            if low < side * at - start < high:
-                high = side * at - start
-        for i in range(first, last):
-            y = low + (high - low) * _NODES[i]
-            nodes[0, count], nodes[1, count] = y, (high - low) * _WEIGHTS[i]
-            nodes[2, count] = limit(law, own, cycle, side * (start + y))
-            count += 1
-        low = high
-    at_start = limit(law, own, cycle, side * start)
-    return SlipZone(nodes[0, :count], nodes[1, :count], nodes[2, :count], length, at_start)
+    breaks = law.breaks(own)
+    cuts = np.empty(breaks.size + 2)
+    cuts[0], cuts[1] = inner, side * cut - start
+    for i in range(breaks.size):
+        cuts[i + 2] = side * breaks[i] - start
+    y, weight = cut_rule(length, cuts, rule)
+    r = np.empty(y.size)
+    for i in range(y.size):
+        r[i] = limit(law, own, cycle, side * (start + y[i]))
+    return SlipZone(y, weight, r, length, limit(law, own, cycle, side * start))

@@ -24,13 +24,7 @@ from typing import Any, NamedTuple
 from ..elementary import EPS
 from ..kernels import kernel, loop, opened
 from .cycles import Cycle, drives
-from .newton import log_step, moved
-
-MAX_NEWTON_STEPS = 40
-"""Largest number of Newton steps; four to six are common."""
-
-NEWTON_RTOL = 1e-9
-"""Newton's method ends after a step below this: the next one would be its square."""
+from .newton import MAX_STEPS, log_step, moved
 
 
 class Edge(NamedTuple):
@@ -106,7 +100,7 @@ def _second_order(at_left: Any, at_right: Any, h: float, left: float, right: flo
     left, right = max(left, 1e-14 * longest), max(right, 1e-14 * longest)
     shrink = h / (h + left + right)
     left, right = shrink * left, shrink * right
-    for _ in range(MAX_NEWTON_STEPS):
+    for _ in range(MAX_STEPS):
         if not (h - left - right > 0 and left > 0 and right > 0):
             break
         by_left, by_right = _step(at_left, at_right, h, left, right)
@@ -116,7 +110,8 @@ def _second_order(at_left: Any, at_right: Any, h: float, left: float, right: flo
         part = min(1.0, 1.0 / length) if length > 0 else 1.0
         left, right = moved(h, left, right, part * by_left, part * by_right)
         rounding = 64 * EPS * max(left, right, abs(at_left.gain), abs(at_right.gain))
-        if length * min(left, right) <= max(NEWTON_RTOL * min(left, right), rounding):
+        # the next step would be the square of this one
+        if length * min(left, right) <= max(math.sqrt(EPS) * min(left, right), rounding):
             return left, right
     return math.nan, math.nan
 

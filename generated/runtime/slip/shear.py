@@ -185,10 +185,11 @@ def _slipped(zone: Any, stuck: float, there: float, here: bool) -> Any:
 
 
 @kernel
-def _slip(law: Any, own: Any, cycle: Any, zone: Any, x: float) -> float:
+def slip(law: Any, own: Any, cycle: Any, zone: Any, x: float, rule: int) -> float:
     """Slip range at x; NaN outside either contact, and where slip reverses.
 
-    zone: m, n and the code of the regime.
+    zone: m, n and the code of the regime
+    rule: the number of the quadrature rule
     """
     m, n, regime = zone
     if not (regime > 0 and -min(cycle.a_1, cycle.a_2) <= x <= min(cycle.c_1, cycle.c_2)):
@@ -198,8 +199,8 @@ def _slip(law: Any, own: Any, cycle: Any, zone: Any, x: float) -> float:
     if regime not in (Regime.MODERATE.value, Regime.LARGE.value):
         return math.nan
     of, there = slipping_in(cycle, regime), x - n if x > n else -m - x
-    left = slip_zone(law, own, cycle, -1.0, of.a - m, x, FINEST)
-    right = slip_zone(law, own, cycle, 1.0, of.c - n, x, FINEST)
+    left = slip_zone(law, own, cycle, -1.0, of.a - m, x, rule)
+    right = slip_zone(law, own, cycle, 1.0, of.c - n, x, rule)
     total = of.kappa * _slipped(left, m + n, there, x < -m)
     total += of.lamda * _slipped(right, m + n, there, x > n)
     return 2 / math.pi * abs(total)
@@ -211,4 +212,4 @@ def each_slip_range(law: Any, given: Any, own: Any, out: Any) -> None:
     law = opened(law)
     for i in range(given.shape[0]):
         zone = given[i, 6], given[i, 7], given[i, 8]
-        out[i, 0] = _slip(law, own[i], cycle_of(given[i]), zone, given[i, 9])
+        out[i, 0] = slip(law, own[i], cycle_of(given[i]), zone, given[i, 9], FINEST)
