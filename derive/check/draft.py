@@ -7,12 +7,12 @@ import os
 import re
 from collections import Counter
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from pathlib import Path
 
 from sympy import Expr, Integral, Mul, Symbol, degree, denom, solve, together
 
 from derive.check.lines import quoted
+from derive.check.proposals import proposal
 from derive.command.errors import BadClaimsFile, BadFormula
 from derive.command.files import demand_writable, write_new
 from derive.command.limit import LimitReached, within
@@ -27,21 +27,17 @@ from derive.reading.formula import (
     unknown,
 )
 from derive.reading.latex import Latex
-from derive.reading.spellings import (
-    described,
-    proposal,
-    spellings,
-    standing_alone,
-    unclear_call,
-    words_for,
-)
-from derive.reading.statements import Statement, remarks, statements
+from derive.reading.lexer import plain
+from derive.reading.spellings import spellings, standing_alone, unclear_call
+from derive.reading.statements import Statement, remarks, separate, statements
 
 _SECONDS = 10.0
 """The time limit for reading one equation, in seconds."""
+_SHOWN = 4
+"""The number of words of LaTeX that show where an error occurred."""
 _KNOWN = frozenset({"E_star", "f", "x", "s", "xi"})
 """Names that every claims file knows without a declaration."""
-
+_NEW = "give the name of a new file with --draft"
 
 _HEAD = """
 # Define each symbol by a formula, such as P = { is = 'load(a, c)' }, or move it to [variables] if
@@ -56,33 +52,35 @@ _HEAD = """
 
 
 @dataclass(frozen=True)
-class _Read:
-    """The reading of a statement.
+class _Part:
+    """One statement of a display, as it is written to the claims file.
 
-    understood  the equation as text; empty if it was not read
-    require     the condition as text
-    limit       the limit as text, such as x -> 0
-    order       the order of the remainder in this limit; 0 if there is none
-    why         the reason if it is not judged
-    note        advice to the user
+    label          the label of its row in the paper
+    number, count  its number in the display, and how many there are
+    understood     the equation as text; empty if it was not read
+    require        the condition as text
+    limit          the limit as text, such as x -> 0
+    order          the order of the remainder in this limit; 0 if there is none
+    why            the reason if it is not judged
+    note           advice to the user
     """
 
+    display: Display
+    label: str
+    number: int
+    count: int
+    why: str = ""
     understood: str = ""
     require: str = ""
     limit: str = ""
     order: float = 0
-    why: str = ""
     note: str = ""
 
-
-@dataclass(frozen=True)
-class _Part:
-    """One statement of a display, as it is written to the claims file."""
-
-    display: Display
-    number: int
-    count: int
-    read: _Read
+    def place(self, name: str) -> str:
+        """Where it stands in a paper."""
+        number = f"eq. ({self.display.number}), " if self.display.number else ""
+        statement = f"statement {self.number}, " if self.count > 1 and self.number else ""
+        return f"{number}{statement}{name}:{self.display.line}"
 
 
 @dataclass
@@ -103,26 +101,30 @@ class Draft:
     @property
     def unread(self) -> list[str]:
         """The location of every statement that could not be read or judged, with the reason."""
-        return [
-            f"{self._place(p)}: {p.read.why}"
-            for p in self.parts
-            if not p.read.understood or p.read.why
-        ]
+        return [f"{p.place(self.name)}: {p.why}" for p in self.parts if p.why]
 
     @property
     def notes(self) -> list[str]:
         """Advice on statements that were read, with their location."""
-        return [f"{self._place(p)}: {p.read.note}" for p in self.parts if p.read.note]
+        return [f"{p.place(self.name)}: {p.note}" for p in self.parts if p.note]
 
-    @cached_property
-    def said(self) -> dict[str, str]:
-        """The descriptions of symbols in the text."""
-        return described(self.source)
+    @property
+    def understood(self) -> int:
+        """The number of statements that were read."""
+        return sum(bool(part.understood) for part in self.parts)
+
+    @property
+    def named(self) -> tuple[int, int]:
+        """The number of symbols with a proposal, and the number of all symbols."""
+        names = self._names()
+        return sum(any(proposal(name, self.source)) for name in names), len(names)
+
+    def _names(self) -> list[str]:
+        return [n for n in dict.fromkeys(self.spelled.values()) if n not in _KNOWN]
 
     def drop_bound(self) -> None:
         """Drop the symbols that are bound by an integral, sum or limit."""
-        read = [part.read for part in self.parts]
-        texts = [text for r in read for text in (r.understood, r.require, *r.limit.split("->"))]
+        texts = [t for p in self.parts for t in (p.understood, p.require, *p.limit.split("->"))]
         argued = {a for n in self.spelled.values() for a in n.partition("_at_")[2].split("_")}
         for spelled, name in list(self.spelled.items()):
             held = [text for text in texts if re.search(rf"\b{name}\b", text)]
@@ -131,26 +133,14 @@ class Draft:
             if not is_open and not any(name in unknown(text, names) for text in held):
                 del self.spelled[spelled]
 
-    @property
-    def understood(self) -> int:
-        """The number of statements that were read."""
-        return sum(bool(part.read.understood) for part in self.parts)
-
-    @property
-    def named(self) -> tuple[int, int]:
-        """The number of symbols with a proposal, and the number of all symbols."""
-        names = self._names()
-        return sum(bool(self._proposed(name)) for name in names), len(names)
-
-    def _place(self, part: _Part) -> str:
-        number = f"eq. ({part.display.number}), " if part.display.number else ""
-        statement = f"statement {part.number}, " if part.count > 1 and part.number else ""
-        return f"{number}{statement}{self.name}:{part.display.line}"
-
     def text(self) -> str:
         """The text of the claims file."""
         lines = [f"title = {_text(self.name)}", *_HEAD.splitlines()]
-        lines += [f"{name} = {self._proposed(name) or _NOTHING}" for name in self._names()]
+        for name in self._names():
+            known = proposal(name, self.source)
+            given = zip(("proposal", "meaning", "unit"), known, strict=True)
+            inside = ", ".join(f"{key} = {_text(text)}" for key, text in given if text)
+            lines.append(f"{name} = {f'{{ {inside} }}' if inside else quoted('')}")
         lines += ["", "[latex]"]
         lines += [f"{quoted(spelled)} = {quoted(name)}" for spelled, name in self.spelled.items()]
         if self.unread:
@@ -158,74 +148,24 @@ class Draft:
             lines += [f"#   {_line(each)}" for each in self.unread]
         labels = Counter[str]()
         for part in self.parts:
-            lines += ["", *self._claim(part, labels)]
+            labels[part.label] += 1
+            again = f" [{labels[part.label]}]" if labels[part.label] > 1 else ""
+            entries = {
+                "label": _text(part.label + again),
+                "place": _text(part.place(self.name)),
+                "says": _text(_line(", ".join(remarks(part.display.latex)))),
+                "latex": _text(part.display.latex),
+                "part": str(part.number or ""),
+                "understood": _text(part.understood),
+                "accepted": "false" if part.understood else "",
+                "require": _text(part.require),
+                "as": _text(part.limit),
+                "order": f"{part.order:g}" if part.order and part.limit else "",
+                "unchecked": _text(_line(part.why)),
+            }
+            lines += ["", *([f"# {_line(part.note)}"] if part.note else []), "[[claims]]"]
+            lines += [f"{key} = {text}" for key, text in entries.items() if text not in ("", "''")]
         return "\n".join([*lines, ""])
-
-    def _names(self) -> list[str]:
-        return [n for n in dict.fromkeys(self.spelled.values()) if n not in _KNOWN]
-
-    def _proposed(self, name: str) -> str:
-        """The proposal for a symbol as a TOML table; empty if there is none."""
-        spelled = [latex for latex, own in self.spelled.items() if own == name]
-        words = next(filter(None, (words_for(latex, self.said) for latex in spelled)), "")
-        known = proposal(name, words, self.source)
-        given = {"proposal": known.formula, "meaning": known.meaning, "unit": known.unit}
-        inside = ", ".join(f"{key} = {_text(text)}" for key, text in given.items() if text)
-        return f"{{ {inside} }}" if inside else ""
-
-    def _claim(self, part: _Part, labels: Counter[str]) -> list[str]:
-        display, read = part.display, part.read
-        label, number, count = self._row(part)
-        label = _line(label) + ("" if count == 1 else f"/{number}")
-        labels[label] += 1
-        label += f" [{labels[label]}]" if labels[label] > 1 else ""
-        lines = [
-            *([f"# {_line(read.note)}"] if read.note else []),
-            "[[claims]]",
-            f"label = {_text(label)}",
-            f"place = {_text(self._place(part))}",
-        ]
-        if words := _line(", ".join(remarks(display.latex))):
-            lines.append(f"says = {_text(words)}")
-        lines.append(f"latex = {_text(display.latex)}")
-        if part.number:
-            lines.append(f"part = {part.number}")
-        if read.understood:
-            lines += [f"understood = {_text(read.understood)}", "accepted = false"]
-        if read.require:
-            lines.append(f"require = {_text(read.require)}")
-        if read.limit:
-            lines.append(f"as = {_text(read.limit)}")
-        if read.order and read.limit:
-            lines.append(f"order = {read.order:g}")
-        if read.why:
-            lines.append(f"unchecked = {_text(_line(read.why))}")
-        return lines
-
-    def _row(self, part: _Part) -> tuple[str, int, int]:
-        """Return the label of a statement's row, its number in the row, and their count."""
-        display = part.display
-        told = f"({display.number})" if display.number else f"line {display.line}"
-        label, number, count = ", ".join(display.labels) or told, part.number, part.count
-        if len(display.labels) < 2 or count == 1:
-            return label, number, count
-        ends = list[int]()
-        rows = list(rows_of(display.latex))
-        for _, end in rows:
-            try:
-                ends.append(len(statements(self.name, display.latex[:end])))
-            except BadFormula:
-                return label, number, count
-        if ends[-1] != count or ends != sorted(ends):
-            return label, number, count
-        row = next(n for n, end in enumerate(ends) if number <= end)
-        before = ends[row - 1] if row else 0
-        own = re.search(LABEL, display.latex[slice(*rows[row])])
-        line = display.line + display.latex[: rows[row][0]].count("\n")
-        return own[1] if own else f"line {line}", number - before, ends[row] - before
-
-
-_NOTHING = '""'
 
 
 def draft(path: Path, inline: bool = False) -> Draft:
@@ -238,73 +178,60 @@ def draft(path: Path, inline: bool = False) -> Draft:
         why = "the file has no displayed equations"
         raise BadClaimsFile(str(path), why, "give a paper in LaTeX")
     made = Draft(path.name, source.environments, source.text)
-    known = list[tuple[Display, list[Statement], str]]()
+    known, alone = list[tuple[_Part, Statement | None]](), set[str]()
     for display in source.found:
         try:
-            known.append((display, statements(path.name, display.latex), ""))
-        except (BadFormula, RecursionError) as error:
-            known.append((display, [], getattr(error, "why", "it is nested too deeply")))
-    alone = set[str]()
-    for _, each, _ in known:
-        for statement in each:
-            if not statement.why:
-                alone |= standing_alone(statement.latex)
-                made.spelled.update(spellings(statement.latex))
-                made.spelled.update(spellings(statement.condition))
-    for display, each, why in known:
-        if not each:
-            read = _Read(why=why or "it has no relation")
-            made.parts.append(_Part(display, 0, 1, read))
-        for number, statement in enumerate(each, 1):
-            made.parts.append(
-                _Part(display, number, len(each), _read(statement, made.spelled, alone))
-            )
+            found, why = statements(path.name, display.latex), "it has no relation"
+        except BadFormula as error:
+            found, why = [], error.why
+        labels = _labels(display, found)
+        for number, (label, each) in enumerate(zip(labels, found, strict=False), 1):
+            known.append((_Part(display, label, number, len(found), each.why), each))
+            if not each.why:
+                alone |= standing_alone(each.tokens)
+                made.spelled.update(spellings(each.tokens) | spellings(each.condition))
+        if not found:
+            known.append((_Part(display, labels[0], 0, 1, why), None))
+    made.parts = [_read(p, each, made.spelled, alone) if each else p for p, each in known]
     made.drop_bound()
     return made
 
 
-def _read(statement: Statement, spelled: dict[str, str], alone: set[str]) -> _Read:
+def _read(part: _Part, statement: Statement, spelled: dict[str, str], alone: set[str]) -> _Part:
     """Read a statement and its condition; give the reason if it cannot be judged."""
     names = Names("", {n: Symbol(n) for n in spelled.values()}, {})
-    require, limit, unclear = _conditions(statement, spelled, names)
-    read = _Read("", require, limit, statement.order, statement.why)
-    if statement.why:
-        return read
-    if called := unclear_call(statement.latex, spelled, alone):
+    reader = Latex("the draft", part.display.latex, spelled)
+    part, unclear = _conditions(replace(part, order=statement.order), statement, reader, names)
+    if part.why:
+        return part
+    if called := unclear_call(statement.tokens, spelled, alone):
         why = f"{called} is a function elsewhere, so it is unclear whether it is a factor here"
-        return replace(read, why=f"{why}: write the claim as text")
+        return replace(part, why=f"{why}: write the claim as text")
+    note = ""
     try:
         with within(_SECONDS):
-            understood = Latex("the draft", statement.latex, spelled).understood()
+            understood = reader.equation(statement.tokens)
             left, _, right = equation(understood, names, rough=statement.is_rough)
     except BadFormula as error:
-        return replace(read, why=_told(error))
+        return replace(part, why=_told(error))
     except LimitReached:
-        return replace(read, why=f"it could not be read within {_SECONDS:g} s")
-    except RecursionError:
-        return replace(read, why="it is nested too deeply")
-    why = unclear
-    if statement.is_rough and not limit and not why and not may_be_rounded(understood):
-        why = "it is an approximation: add its limit, such as as = 'x -> 0', or write it with ="
+        return replace(part, why=f"it could not be read within {_SECONDS:g} s")
     try:
         with within(_SECONDS):
             note = _pole(left, right)
     except LimitReached:
-        note = ""
-    return replace(read, understood=understood, why=why, note=note)
+        pass
+    if statement.is_rough and not (part.limit or unclear or may_be_rounded(understood)):
+        unclear = "it is an approximation: add its limit, such as as = 'x -> 0', or write it with ="
+    return replace(part, understood=understood, why=unclear, note=note)
 
 
 def _told(error: BadFormula) -> str:
     """Return the reason for an error, with the LaTeX where it occurred."""
     if isinstance(error, UnknownName):
         return error.why
-    here = error.given[error.column :].split()
-    shown = "".join(f" {each}" for each in here[:_SHOWN]).strip()
+    shown = " ".join(error.given[error.column :].split()[:_SHOWN])
     return f"{error.why}{f', at `{shown}`' if shown else ''}: {error.remedy}"
-
-
-_SHOWN = 4
-"""The number of words of LaTeX that show where an error occurred."""
 
 
 def _pole(left: Expr, right: Expr) -> str:
@@ -323,32 +250,50 @@ def _pole(left: Expr, right: Expr) -> str:
 
 
 def _conditions(
-    statement: Statement, spelled: dict[str, str], names: Names
-) -> tuple[str, str, str]:
-    """Read the conditions and the limit; return both as text, and the reason if this fails."""
-    told, limits, joint = list[str](), list[str](), r" \orword "
-    parts = [statement.condition]
-    if joint not in statement.condition:
-        parts = re.split(r",|\\andword", statement.condition)
-    for part in filter(None, (each.strip(" ,.;") for each in parts)):
-        reading = Latex("the draft", part, spelled)
+    part: _Part, statement: Statement, reader: Latex, names: Names
+) -> tuple[_Part, str]:
+    """Add the condition and the limit to a part; return also the reason if this fails."""
+    told, limits = list[str](), list[str]()
+    for each in separate(statement.condition):
         try:
-            if r"\to" in part:
-                limits.append(reading.approach())
+            if any(token.type == "TO" for token in each):
+                limits.append(reader.approach(each))
                 approach(limits[-1], names)
             else:
-                told.append(reading.condition())
+                told.append(reader.condition(each))
                 condition(told[-1], names)
         except BadFormula:
-            why = f"its condition {part} could not be read: write it in `require` or in `as`"
-            return "", "", why
-    require, limit = " and ".join(told), "".join(limits[:1])
-    small = spelled.get(statement.small, statement.small)
+            why = f"its condition {plain(each)} could not be read: write it in `require` or in `as`"
+            return part, why
+    small = reader.spellings.get(statement.small, statement.small)
+    limit = limits[0] if limits else f"{small} -> 0" if statement.order else ""
+    part = replace(part, require=" and ".join(told))
     if len(limits) > 1:
-        return require, "", f"it holds in several limits, {', '.join(limits)}: put one in `as`"
+        return part, f"it holds in several limits, {', '.join(limits)}: put one in `as`"
     if statement.order and limit != f"{small} -> 0":
-        return require, "", f"its remainder tends to zero with {small}, but its limit is {limit}"
-    return require, limit, ""
+        return part, f"its remainder tends to zero with {small}, but its limit is {limit}"
+    return replace(part, limit=limit), ""
+
+
+def _labels(display: Display, found: list[Statement]) -> list[str]:
+    """Return the label of each statement's row in the paper, with its number in the row."""
+    number = f"({display.number})" if display.number else f"line {display.line}"
+    rows, labels = list(rows_of(display.latex)), list[str]()
+    if not found:
+        return [_line(", ".join(display.labels) or number)]
+    for each in found:
+        label = ", ".join(display.labels) or number
+        if len(display.labels) > 1 and len(found) > 1:
+            start, end = next(row for row in rows if each.tokens[-1].at < row[1])
+            own = LABEL.search(display.latex, start, end)
+            line = display.line + display.latex.count("\n", 0, start)
+            label = own[1] if own else f"line {line}"
+        labels.append(_line(label))
+    counts, numbers = Counter(labels), Counter[str]()
+    for n, label in enumerate(labels):
+        numbers[label] += 1
+        labels[n] += f"/{numbers[label]}" if counts[label] > 1 else ""
+    return labels
 
 
 def demand_new(path: Path) -> None:
@@ -368,9 +313,6 @@ def write(made: Draft, path: Path) -> None:
         write_new(made.text().encode(), path)
     except OSError as error:
         raise _unwritable(path, error) from error
-
-
-_NEW = "give the name of a new file with --draft"
 
 
 def _unwritable(path: Path, error: OSError) -> BadClaimsFile:

@@ -13,6 +13,7 @@ from derive.check.mistakes import reason
 from derive.command.errors import BadFormula, NotAccepted
 from derive.reading.formula import Names, equation, may_be_rounded
 from derive.reading.latex import Latex
+from derive.reading.lexer import plain
 from derive.reading.statements import statements
 
 _BESIDE = ("as", "order", "require", "given")
@@ -47,7 +48,7 @@ def printed(claim: Entries, names: Names, spellings: Mapping[str, str]) -> str:
     if "printed" in given:
         return claim.text("printed")
     spelled = {**{n: n for n in names.symbols}, **_usual(names), **spellings}
-    understood = Latex(str(place), _part(claim), spelled).understood()
+    understood = _understood(claim, spelled)
     accepted = str(given.get("understood", ""))
     if given.get("accepted") is False:
         raise NotAccepted(str(place), understood, "")
@@ -84,20 +85,22 @@ def not_accepted(claim: Entries, error: NotAccepted) -> str:
     return f"the LaTeX was read as {error.understood}, but {said}: use --accept, or write {by_hand}"
 
 
-def _part(claim: Entries) -> str:
-    """Return the LaTeX of a claim, or of one statement in its display."""
+def _understood(claim: Entries, spelled: Mapping[str, str]) -> str:
+    """Return the LaTeX of a claim, or one statement in its display, as text."""
     latex = claim.text("latex")
+    reader = Latex(str(claim.place), latex, spelled)
     if "part" not in claim.data:
-        return latex
+        return reader.understood()
     found, part = statements(str(claim.place), latex), claim.data["part"]
     if type(part) is not int or not 1 <= part <= len(found):
         why = f"part = {part!r} is not the number of a statement in this display"
         raise claim.place.bad(why, f"write a number from 1 to {len(found)}")
     printed = found[part - 1]
-    if printed.condition and not claim.data.keys() & {"require", "as"}:
-        why = f"the display also says {printed.condition}, but neither `require` nor `as` is given"
+    if (printed.condition or printed.order) and not claim.data.keys() & {"require", "as"}:
+        says = plain(printed.condition) or rf"{printed.small} \to 0"
+        why = f"the display also says {says}, but neither `require` nor `as` is given"
         raise claim.place.bad(why, "give the condition in `require`, or the limit in `as`")
-    return printed.latex
+    return reader.equation(printed.tokens)
 
 
 def _shown(entry: object) -> str:

@@ -15,9 +15,11 @@
                                             the term of an equation whose units do not fit;
                                             the unit of each parameter, because g is a length
     displays   LaTeX file                   its displays, numbered as LaTeX numbers them
-    statements display                      its equations, each with its condition
-    spellings  equation in LaTeX            its symbols, and proposals for their meanings
-    latex      equation in LaTeX            an equation as text, if only one reading is possible
+    lexer      LaTeX                        tokens: the only place that knows how things are spelled
+    statements tokens of a display          its equations, each with its condition
+    spellings  tokens                       the symbols, each with a name
+    typed      rules of latex.lark          typed text, or a refusal
+    latex      tokens of an equation        an equation as text, if only one reading is possible
 
 If a text is refused, the message (`BadText` or `BadFormula` of derive.command.errors) shows it with
 a caret under the mistake.

@@ -1,8 +1,8 @@
 r"""Find the displays of a LaTeX file, in order, and number them as LaTeX does."""
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from derive.command.errors import BadClaimsFile
@@ -12,11 +12,18 @@ _LARGEST = 5_000_000
 """The largest size of a LaTeX file, in bytes."""
 _MOST = 500
 """The largest number of displays in a file."""
-_ONE = ("equation", "multline", "displaymath", "math")
+_LONGEST_LINE = 300
+"""A formula in the text must have fewer characters than this."""
+_EXPANDED = 20_000
+"""The largest number of characters in a display after its macros are expanded."""
+_PASSES = 10
+"""The largest nesting depth of macros that are expanded."""
+
 _ROWS = ("align", "alignat", "flalign", "gather", "eqnarray")
+_KINDS = "|".join(("equation", "multline", "displaymath", "math", *_ROWS))
 _START = re.compile(
-    rf"\\begin\s*\{{((?:{'|'.join((*_ONE, *_ROWS))})\*?|subequations)\}}"
-    r"|\\end\s*\{(subequations)\}|(?<!\\)(\\\[)|(?<!\\)(\$\$)"
+    rf"\\begin\s*\{{((?:{_KINDS})\*?)\}}|(?<!\\)(\\\[)|(?<!\\)(\$\$)"
+    r"|\\(begin|end)\s*\{subequations\}"
 )
 LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 """The label of an equation."""
@@ -27,17 +34,7 @@ _MACRO = re.compile(
     r"\s*(?:\[([1-9])\])?\s*(?=\{)|\\def\s*(\\[A-Za-z]+)\s*(?=\{)"
 )
 _INLINE = re.compile(r"(?<![\\$])\$([^$]+)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
-_RELATION = re.compile(
-    r"[^\s{(]\s*(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))\s*[^\s})]"
-)
-_LONGEST_LINE = 300
-"""A formula in the text must have fewer characters than this."""
-_EXPANDED = 20_000
-"""The largest number of characters in a display after its macros are expanded."""
-_LONGEST_COMMAND = 80
-"""The largest number of characters in a command."""
-_PASSES = 10
-"""The largest nesting depth of macros that are expanded."""
+_RELATION = r"(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))"
 
 
 @dataclass(frozen=True)
@@ -70,35 +67,53 @@ class Source:
     text: str
 
 
+@dataclass
+class _Numbers:
+    """The equation counter; inside subequations it also counts letters."""
+
+    count: int = 0
+    letters: Iterator[str] | None = field(default=None)
+
+    def of(self, row: str, starred: bool) -> str:
+        """Return the number of an equation, such as 3 or 3a; empty if it has none."""
+        if tag := _TAG.search(row):
+            return (tag[1] or tag[2] or "").strip()
+        if starred or _UNNUMBERED.search(row):
+            return ""
+        self.count += self.letters is None
+        return f"{self.count}{next(self.letters, '') if self.letters else ''}"
+
+
 def displays(path: Path, inline: bool = False) -> Source:
     """Return the displays of a file and, if `inline` is true, the relations in its text.
 
     Raises BadClaimsFile.
     """
-    text = _without_comments(_text(path))
+    text = re.sub(r"(?<!\\)((?:\\\\)*)%[^\n]*", r"\1", _text(path))
     start = max(text.find(r"\begin{document}"), 0)
-    macros = _macros(text[:start])
-    collected, environments, gaps, text_start = list[Display](), 0, list[tuple[int, int]](), start
-    for body, kind, offset_of_body, numbers, span in _bodies(str(path), text, start):
-        environments += 1
-        if environments > _MOST:
+    macros, spans, found = _macros(text[:start]), [(start, start)], list[Display]()
+
+    def add(latex: str, at: int, number: str = "", labels: tuple[str, ...] = ()) -> None:
+        line = text.count("\n", 0, at) + 1
+        found.append(Display(number, labels, line, _expanded(latex, macros).strip()))
+
+    for span, body, at, kind, numbers in _bodies(str(path), text, start):
+        spans.append(span)
+        if len(spans) > _MOST + 1:
             why = f"the file has more than {_MOST} displays"
             raise BadClaimsFile(str(path), why, "split it into smaller files")
-        gaps.append((text_start, span[0]))
-        text_start = span[1]
         for offset, latex, number in _groups(body, kind, numbers):
-            labels = tuple(each[1] for each in LABEL.finditer(latex))
-            line = text.count("\n", 0, offset_of_body + offset) + 1
-            collected.append(Display(number, labels, line, _expanded(latex, macros).strip()))
+            add(latex, at + offset, number, tuple(each[1] for each in LABEL.finditer(latex)))
     if inline:
-        for start_of_text, end_of_text in [*gaps, (text_start, len(text))]:
-            for each in _INLINE.finditer(text, start_of_text, end_of_text):
+        ends = [*(span[0] for span in spans[1:]), len(text)]
+        for (_, gap_start), gap_end in zip(spans, ends, strict=True):
+            for each in _INLINE.finditer(text, gap_start, gap_end):
                 latex = each[1] or each[2]
-                if _RELATION.search(latex) and len(latex) < _LONGEST_LINE:
-                    line = text.count("\n", 0, each.start()) + 1
-                    collected.append(Display("", (), line, _expanded(latex, macros).strip()))
-        collected = sorted(collected, key=lambda each: each.line)[:_MOST]
-    return Source(collected, environments, text)
+                is_relation = re.search(rf"[^\s{{(]\s*{_RELATION}\s*[^\s}})]", latex)
+                if is_relation and len(latex) < _LONGEST_LINE:
+                    add(latex, each.start())
+        found = sorted(found, key=lambda each: each.line)[:_MOST]
+    return Source(found, len(spans) - 1, text)
 
 
 def _text(path: Path) -> str:
@@ -111,19 +126,16 @@ def _text(path: Path) -> str:
         raise BadClaimsFile(str(path), str(error), "give a LaTeX file") from error
 
 
-def _without_comments(text: str) -> str:
-    """Remove comments and keep every line break."""
-    return re.sub(r"(?<!\\)((?:\\\\)*)%[^\n]*", r"\1", text)
+# ------------------------------------------------------------------ macros
 
 
 def _macros(text: str) -> dict[str, tuple[int, str]]:
     """Return the number of arguments and the replacement text of every macro."""
     macros = {}
     for each in _MACRO.finditer(text):
-        end = _closed(text, each.end())
-        body = text[each.end() + 1 : end - 1]
-        if "DeclareMathOperator" in each[0]:
-            body = rf"\operatorname{{{body}}}"
+        body = text[each.end() + 1 : _closed(text, each.end()) - 1]
+        is_operator = "DeclareMathOperator" in each[0]
+        body = rf"\operatorname{{{body}}}" if is_operator else body
         macros[each[1] or each[3]] = (int(each[2] or 0), body)
     return macros
 
@@ -131,97 +143,73 @@ def _macros(text: str) -> dict[str, tuple[int, str]]:
 def _closed(text: str, at: int) -> int:
     """Return the end of the braced group or the single token that starts at `at`."""
     if text[at : at + 1] != "{":
-        match = re.match(r"\\[A-Za-z]+|.", text[at:], re.DOTALL)
-        return at + (match.end() if match else 0)
+        match = re.compile(r"\\[A-Za-z]+|.|", re.DOTALL).match(text, at)
+        return match.end() if match else at
     depth = 0
-    for match in re.finditer(r"(?<!\\)[{}]", text[at:]):
-        depth += 1 if match[0] == "{" else -1
+    for brace in re.compile(r"(?<!\\)[{}]").finditer(text, at):
+        depth += 1 if brace[0] == "{" else -1
         if depth == 0:
-            return at + match.end()
+            return brace.end()
     return len(text)
 
 
-def _expanded(latex: str, macros: dict[str, tuple[int, str]]) -> str:
+def _expanded(latex: str, macros: Mapping[str, tuple[int, str]]) -> str:
     """Expand macros, as long as the display does not become too long."""
     for _ in range(_PASSES):
-        parts, position = list[str](), 0
+        made, position = "", 0
         for match in re.finditer(r"\\[A-Za-z]+", latex):
             if match.start() < position or match[0] not in macros:
                 continue
             count, body = macros[match[0]]
-            end, given = match.end(), list[str]()
+            made, position = made + latex[position : match.start()], match.end()
+            given = list[str]()
             for _argument in range(count):
-                start = end + len(latex[end:]) - len(latex[end:].lstrip())
-                end = _closed(latex, start)
-                one = latex[start:end]
+                start = position + len(latex[position:]) - len(latex[position:].lstrip())
+                position = _closed(latex, start)
+                one = latex[start:position]
                 given.append(one[1:-1] if one[:1] == "{" else one)
-            parts += [latex[position : match.start()], *_filled(body, given)]
-            position = end
-        if not parts:
+            for n, piece in enumerate(re.split(r"#([1-9])", body)):
+                made = _joined(made, "".join(given[int(piece) - 1 :][:1]) if n % 2 else piece)
+            if len(made) > _EXPANDED:
+                return latex
+            if latex[position : position + 1].isalpha():
+                made = _joined(made, latex[position])
+                position += 1
+        if not position:
             break
-        parts.append(latex[position:])
-        if sum(map(len, parts)) > _EXPANDED:
-            break
-        latex = _together(parts)
+        latex = made + latex[position:]
     return latex
 
 
-def _filled(body: str, given: list[str]) -> list[str]:
-    """Return the replacement text of a macro, in pieces, with its arguments."""
-    pieces = re.split(r"#([1-9])", body)
-    return [
-        piece if n % 2 == 0 else (given[int(piece) - 1] if int(piece) <= len(given) else "")
-        for n, piece in enumerate(pieces)
-    ]
-
-
-def _together(parts: list[str]) -> str:
+def _joined(before: str, after: str) -> str:
     """Join texts, with a space where a letter would lengthen the command before it."""
-    joined = ""
-    for part in parts:
-        is_glued = part[:1].isalpha() and re.search(r"\\[A-Za-z]+$", joined[-_LONGEST_COMMAND:])
-        joined += f" {part}" if is_glued else part
-    return joined
+    is_glued = after[:1].isalpha() and re.search(r"\\[A-Za-z]+$", before[-80:])
+    return f"{before} {after}" if is_glued else before + after
 
 
-class _Numbers:
-    """The equation counter."""
-
-    def __init__(self) -> None:
-        self.count, self.letter, self.inside = 0, 0, False
-
-    def next(self) -> str:
-        """Return the next number, such as 3 or, inside subequations, 3a."""
-        if self.inside:
-            self.letter += 1
-            return f"{self.count}{chr(ord('a') + (self.letter - 1) % 26)}"
-        self.count += 1
-        return str(self.count)
+# ------------------------------------------------------------------ displays and rows
 
 
 def _bodies(
     name: str, text: str, start: int
-) -> Iterator[tuple[str, str, int, _Numbers, tuple[int, int]]]:
-    """Yield the body, kind and start of each display, the counter, and the whole span."""
+) -> Iterator[tuple[tuple[int, int], str, int, str, _Numbers]]:
+    """Yield the span, the body with its place, and the kind of each display, and the counter."""
     numbers, position = _Numbers(), start
     while opening := _START.search(text, position):
         position = opening.end()
-        if opening[1] == "subequations":
-            numbers.count, numbers.letter, numbers.inside = numbers.count + 1, 0, True
-            continue
-        if opening[2]:
-            numbers.inside = False
+        if opening[4]:
+            numbers.count += opening[4] == "begin"
+            numbers.letters = iter("abcdefghijklmnopqrstuvwxyz") if opening[4] == "begin" else None
             continue
         kind = opening[1] or "*"
-        close = rf"\end{{{kind}}}" if opening[1] else (r"\]" if opening[3] else "$$")
+        close = rf"\end{{{kind}}}" if opening[1] else (r"\]" if opening[2] else "$$")
         end = text.find(close, position)
         if end < 0:
             line = text.count("\n", 0, opening.start()) + 1
-            why = f"{opening[0]} is not closed"
-            raise BadClaimsFile(f"{name}:{line}", why, f"add {close}")
+            raise BadClaimsFile(f"{name}:{line}", f"{opening[0]} is not closed", f"add {close}")
         if kind.startswith("alignat") and (columns := re.match(r"\s*\{\d+\}", text[position:end])):
             position += columns.end()
-        yield text[position:end], kind, position, numbers, (opening.start(), end + len(close))
+        yield (opening.start(), end + len(close)), text[position:end], position, kind, numbers
         position = end + len(close)
 
 
@@ -229,43 +217,32 @@ def _groups(body: str, kind: str, numbers: _Numbers) -> Iterator[tuple[int, str,
     """Yield the rows that belong together, as start, body and numbers, such as "18, 19"."""
     starred = kind.endswith("*")
     if kind.rstrip("*") not in _ROWS:
-        yield 0, body, _number(body, starred, numbers)
+        yield 0, body, numbers.of(body, starred)
         return
-    begin, row_numbers = 0, list[str]()
-    rows = list(rows_of(body))
-    for n, (start, end) in enumerate(rows):
+    begin, printed = 0, list[str]()
+    for n, (start, end) in enumerate(rows_of(body)):
         if n and _begins(body[start:end]):
-            yield begin, body[begin:start].removesuffix(r"\\"), ", ".join(filter(None, row_numbers))
-            begin, row_numbers = start, []
+            yield begin, body[begin:start].removesuffix(r"\\"), ", ".join(filter(None, printed))
+            begin, printed = start, []
         if body[start:end].strip():
-            row_numbers.append(_number(body[start:end], starred, numbers))
+            printed.append(numbers.of(body[start:end], starred))
     if body[begin:].strip():
-        yield begin, body[begin:], ", ".join(filter(None, row_numbers))
+        yield begin, body[begin:], ", ".join(filter(None, printed))
 
 
 def _begins(row: str) -> bool:
     """Whether a row has its own left side and does not continue the row before it."""
     plain = re.sub(r"&|\\[,;:! ]|\s", " ", row).strip()
-    if re.match(r"=|<|>|\+|-|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z])", plain):
-        return False
-    return bool(re.search(r"=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z])", plain))
+    return not re.match(rf"{_RELATION}|\+|-", plain) and bool(re.search(_RELATION, plain))
 
 
 def rows_of(body: str) -> Iterator[tuple[int, int]]:
     """Yield the spans of the rows of a display; inner environments are not split."""
     start, depth = 0, 0
     for match in re.finditer(r"\\begin(?![A-Za-z])|\\end(?![A-Za-z])|\\\\", body):
-        if match[0] == r"\\":
-            if depth == 0:
-                yield start, match.end()
-                start = match.end()
-        else:
-            depth += 1 if match[0] == r"\begin" else -1
+        depth += (match[0] == r"\begin") - (match[0] == r"\end")
+        if match[0] == r"\\" and depth == 0:
+            yield start, match.end()
+            start = match.end()
     if body[start:].strip():
         yield start, len(body)
-
-
-def _number(row: str, starred: bool, numbers: _Numbers) -> str:
-    if tag := _TAG.search(row):
-        return (tag[1] or tag[2] or "").strip()
-    return "" if starred or _UNNUMBERED.search(row) else numbers.next()

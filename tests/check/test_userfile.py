@@ -12,7 +12,6 @@ from derive.check.claim_table import OF_A_CLAIM
 from derive.check.userfile import KEYS, open_readings
 from derive.command.errors import BadFormula
 from derive.reading.formula import Names, equation, formula
-from derive.reading.latex import Latex
 from tests.check.asking import run, told, written
 
 ROOT = Path(__file__).parents[2]
@@ -414,68 +413,6 @@ def test_a_message_points_to_the_place(text: str, column: int) -> None:
         (equation if "=" in text else formula)(text, NAMES)
     assert caught.value.column == column
     assert caught.value.message.splitlines()[-1].index("^") == column + 4
-
-
-# ------------------------------------------------------------------ LaTeX
-
-SPELLINGS = {"a": "a", "c": "c", "P": "P", "f": "f", "Q": "Q", "E^*": "E_star", r"\Delta Q": "dQ"}
-
-
-def latex(text: str) -> str:
-    return Latex("here", text, SPELLINGS).understood()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("text", "understood"),
-    [
-        (r"c = a \sqrt{1 - \frac{Q}{f P}}", "c = a*sqrt(-Q/(P*f) + 1)"),
-        (r"c = \sin(a) \cdot Q + \ln\frac{a}{Q}", "c = sin(a)*Q + log(a/Q)"),
-        (r"c = \sin^2(\exp(a Q)) + \cos^{2} a", "c = sin(exp(a*Q))**2 + cos(a)**2"),
-        (r"c = " + "a(Q)+" * 20 + "a", "c = 20*a*Q + a"),
-        (r"c = a^{2}P", "c = a**2*P"),
-        (r"c = \frac12 a", "c = a/2"),
-        (r"c = \sqrt aP", "c = sqrt(a)*P"),
-        (r"c = |a| + |P||f|", "c = abs(a) + abs(P)*abs(f)"),
-        (r"c = {a}^{2}", "c = a**2"),
-    ],
-)
-def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
-    names = Names("here", {n: Symbol(n) for n in set(SPELLINGS.values())}, {})
-    assert equation(latex(text), names) == equation(understood, names)
-
-
-@pytest.mark.parametrize(
-    ("text", "part", "column"),
-    [
-        (r"c = a \gamma", r"\gamma is neither a declared symbol", 6),
-        (r"c = a = P", "two relations", 6),
-        (r"c = a -- P", "cannot be read", 7),
-        (r"c = 1/2 a", "belongs to the denominator", 8),
-        (r"c = 1/a^{2} Q", "belongs to the denominator", 12),
-        (r"c = {a + P}^2", "not printed", 4),
-        (r"c = \sin{a + P}", "not printed", 8),
-        (r"c = \frac123", "numerator and denominator", 9),
-        (r"c = {|a}|", "not closed", 5),
-        (r"c = \int_0^1 a", "the end of this integral", 4),
-        ("c = " + "a" * 2500, "2504 characters", 2000),
-        (r"c = \sin(a) Q", "the end of the function's argument", 12),
-        (r"c = \log{a} Q", "the end of the function's argument", 12),
-        (r"c = \sin(a)^2", "the end of the function's argument", 11),
-        (r"c = \sin^{-2} Q", "may mean its inverse", 8),
-        (r"c = \sin", "no argument", 8),
-        (r"c = Q^12", "one character", 6),
-        (r"c = a^{Q}^{2}", "a power of a power", 9),
-        (r"c = 2 3 a", "two numbers", 6),
-        (r"c = 3\frac12", "a numerical fraction", 5),
-        (r"c = a^{Q", "not closed", 6),
-    ],
-)
-def test_what_cannot_be_read_is_shown(text: str, part: str, column: int) -> None:
-    with pytest.raises(BadFormula) as caught:
-        latex(text)
-    assert part in caught.value.message
-    assert caught.value.column == column
 
 
 def test_what_was_understood_must_be_accepted(tmp_path: Path) -> None:

@@ -1,0 +1,389 @@
+r"""Cut LaTeX into tokens: the only place that knows how things are spelled.
+
+In:   a display, or the LaTeX of a symbol.
+Out:  tokens, each with its terminal of latex.lark, its plain LaTeX, and its place in the text.
+
+Only layout commands are removed.  Words become tokens as well; the grammar admits those that join
+statements or conditions, and everything else is refused where it stands.
+"""
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from derive.reading.words import COMMANDS, FUNCTIONS
+
+_DEEPEST = 60
+"""The largest nesting depth of brackets."""
+
+_SPELLINGS = r"""
+EQUAL     =      \equiv \coloneqq \triangleq defined
+ORDER     <
+ORDER     >
+ORDER     \le    \leq \leqslant
+ORDER     \ge    \geq \geqslant
+ROUGH     \sim   \simeq \approx \cong
+TO        \to    \rightarrow \longrightarrow
+NE        \ne    \neq unequal
+PROPTO    \propto
+RELATED   \ll
+RELATED   \gg
+RELATED   \in
+IMPLIES   \implies \Rightarrow \Longrightarrow
+IFF       \iff   \Leftrightarrow \Longleftrightarrow
+AND       \and   \therefore
+SIGN      +
+SIGN      -
+PM        \pm
+PM        \mp
+OPERATOR  *
+OPERATOR  /
+OPERATOR  \cdot  \times
+POWER     ^
+COMMA     ,
+'         '      \prime
+|         |      \lvert \rvert \vert
+(         (      \{ \lbrace open
+)         )      \} \rbrace close
+FRAC      \frac  \dfrac \tfrac \cfrac \nicefrac
+OVER      \over
+SQRT      \sqrt
+SUM       \sum
+LIM       \lim
+INT       \int
+INT       \pvint \fint \dashint principal
+DIFF      \dd
+EULER     \euler
+PV        \pv
+PI        \pi
+SYMBOL    \infty
+DOTS      \dots  \ldots \cdots dots
+GAP       \quad  gap
+LINE      \\     row
+CIRCULAR  \cot
+CIRCULAR  \sec
+CIRCULAR  \csc
+"""
+"""The terminal, the plain LaTeX, and other spellings of it, or names of groups of _TOKEN."""
+_LETTERS = r"""
+\alpha \beta \gamma \delta \epsilon \varepsilon \zeta \eta \theta \vartheta \iota \kappa \lambda \mu
+\nu \xi \rho \varrho \sigma \tau \upsilon \phi \varphi \chi \psi \omega \ell \Gamma \Delta \Theta
+\Lambda \Xi \Pi \Sigma \Upsilon \Phi \Psi \Omega
+"""
+GREEK = frozenset(_LETTERS.split())
+ENDS_SOONER = ("circular", "hyperbolic")
+"""Functions of angles and their inverses: the name of the next function ends their argument."""
+
+_TABLE = {
+    spelling: (kind, plain)
+    for kind, plain, *others in (row.split() for row in _SPELLINGS.strip().splitlines())
+    for spelling in (plain, *others)
+}
+_TABLE |= dict.fromkeys(GREEK, ("LETTER", ""))
+for _each, _name in COMMANDS.items():
+    _circular = FUNCTIONS[_name].like.endswith(ENDS_SOONER)
+    _TABLE.setdefault(_each, ("CIRCULAR" if _circular else "FUNC", _each))
+
+_UPRIGHT = {
+    **{name: command for command, name in COMMANDS.items() if name.islower()},
+    **{command[1:]: command for command in COMMANDS if command.islower()},
+    **{f"arc{name}": rf"\ar{name}" for name in ("sinh", "cosh", "tanh")},
+    **{"cot": r"\cot", "d": r"\dd", "e": r"\euler"},
+    **dict.fromkeys(("PV", "pv", "p.v.", "P.V.", "p. v.", "CPV"), r"\pv"),
+}
+"""Functions and constants whose name is printed upright."""
+_WORDS = {
+    "AND": "and|so that|with|hence|thus|therefore|i.e",
+    "OR": "or|or else",
+    "WHERE": "for|for all|for any|for every|if|when|whenever|where|as|at|in|on|provided"
+    "|provided that|while|as long as|in the limit|valid for",
+    "ELSE": "otherwise|else|elsewhere",
+}
+_KINDS = {word: kind for kind, words in _WORDS.items() for word in words.split("|")}
+_KINDS["where"] = "AND"
+CLAUSES = frozenset(word.split()[0] for word in _KINDS if _KINDS[word] != "ELSE") | {
+    *("which", "that", "since")
+}
+"""Words that start a clause."""
+_VALUES = (r"\begin{cases}", r"\begin{dcases}", r"\begin{rcases}")
+_BLOCKS = tuple(rf"\begin{{{name}}}" for name in ("split", "aligned", "gathered", "alignedat"))
+"""Environments whose rows have a value and a condition each, and those whose rows are lines."""
+_CURLY = r"\{"
+_UNITS = frozenset("gmsJNW")
+"""Units of one letter.  K may be an elliptic integral."""
+
+_SPACE = r"(?:~|\\[;:, >])"
+_FONTS = "text|mbox|hbox|textnormal|mathrm|textrm|textit|mathit|operatorname|mathbf|textsf|mathsf"
+_ROUGHLY = r"\\(?:sim|simeq|approx|cong)(?![A-Za-z])|="
+_TOKEN = re.compile(
+    rf"""(?P<layout>
+        \\l?eqno(?![A-Za-z]).*
+      | \\(?:label|tag\*?|hspace\*?|vspace\*?|mathstrut|phantom)\s*\{{[^{{}}]*\}}
+      | \\(?:nonumber|notag|displaystyle|textstyle|limits|boxed|[bB]igg?[lrm]?)(?![A-Za-z])
+      | \\(?:left|right)\s*\. | \\(?:left|right)(?![A-Za-z]|\s*[{{}}]) | \\!
+      | \s+)
+    | (?P<gap>(?:{_SPACE}\s*){{2,}} | \\q?quad(?![A-Za-z]))
+    | (?P<space>{_SPACE})
+    | (?P<number>(?:0|\d+(?=\{{,\}}(?!\d{{3}}(?!\d))))\{{,\}}\d+ | \d+(?:\.\d+)?)
+    | (?P<open>\\(?:left|right)\s*\{{) | (?P<close>\\(?:left|right)\s*\}})
+    | (?P<order>(?:\\(?:mathcal|mathscr)\s*(?:\{{\s*O\s*\}}|O))
+      | [Oo](?=(?:\s|\\left|\\[bB]igg?l?)*\())
+    | (?P<principal>-(?:\s|\{{\}})*\\!(?:\s|\\!|\{{\}})*\\int(?![A-Za-z]))
+    | (?P<defined>:\s*= | \\stackrel\s*\{{\s*\\\w+\s*\{{?\s*def\.?\s*\}}?\s*\}}\s*\{{\s*=\s*\}})
+    | (?P<unequal>\\not\s*=)
+    | (?P<stacked>\\(?:underset|overset|stackrel)
+        \s*\{{(?P<beneath>[^{{}}]*\\(?:to|rightarrow)(?![A-Za-z])[^{{}}]*)\}}
+        \s*\{{?\s*(?P<relation>{_ROUGHLY})\s*\}}?)
+    | (?P<dots>\.\s*\.\s*\.)
+    | (?P<row>\\\\\*?(?:\[[^\]]*\])?)
+    | (?P<begin>(?P<opening>(?:(?:\\left\s*)?\\\{{\s*)?\\begin\s*\{{[A-Za-z]+\*?\}})
+        (?:(?:(?<=array\}})|(?<=edat\}}))\s*\{{[^{{}}]*\}})?)
+    | (?P<end>(?P<ending>\\end\s*\{{[A-Za-z]+\*?\}})(?:\s*\\right\s*\.)?)
+    | (?P<mixed>\\(?:text|mbox|hbox|textrm|textnormal)\s*
+        \{{(?P<mixture>(?:[^{{}}$]*\$[^$]*\$)+[^{{}}$]*)\}})
+    | (?P<roman>\{{\s*\\(?:rm|it|bf|sf)(?![A-Za-z])\s*(?P<old>[^{{}}\\]*)\}})
+    | (?P<words>(?P<closed>\{{\s*)?\\(?P<font>{_FONTS})\*?
+        \s*(?:\{{(?P<inner>[^{{}}]*)\}} | (?<=\s)(?P<letter>[A-Za-z]))(?(closed)\s*\}}))
+    | (?P<command>\\[A-Za-z]+ | \\. | .)
+    """,
+    re.DOTALL | re.VERBOSE,
+)
+
+
+class Token(NamedTuple):
+    """A token.
+
+    type   the terminal of the grammar
+    text   its plain LaTeX
+    at     its place in the display
+    depth  the number of brackets around it
+    size   the number of tokens that it stands for; without braces, TeX takes only one
+    """
+
+    type: str
+    text: str
+    at: int
+    depth: int = 0
+    size: int = 1
+
+    @property
+    def words(self) -> str:
+        """The words of a remark."""
+        return self.text.removeprefix(r"\text{").removesuffix("}")
+
+
+@dataclass
+class Unclear(Exception):
+    """The LaTeX cannot be read, or can be read in two ways, from a place on."""
+
+    at: int
+    why: str
+    remedy: str
+
+
+def plain(tokens: list[Token]) -> str:
+    """Return the plain LaTeX of tokens."""
+    return re.sub(r" (?=[_^'})\]])|(?<=[{(\[_^]) ", "", " ".join(each.text for each in tokens))
+
+
+def tokens_of(latex: str) -> list[Token]:
+    """Cut a display, or the LaTeX of a symbol; raise Unclear if its brackets do not match."""
+    return _differentials(_nested(_unframed(scan(latex))))
+
+
+def scan(latex: str, start: int = 0, end: int | None = None) -> list[Token]:
+    """Cut LaTeX into tokens without regard to brackets."""
+    made = list[Token]()
+    stop = len(latex) if end is None else end
+    for match in _TOKEN.finditer(latex, start, stop):
+        kind = str(match.lastgroup)
+        if kind in ("layout", "space"):
+            continue
+        made += _READERS.get(kind, _command)(match, made)
+        if [each.text for each in made[-2:]] == [r"\pv", r"\int"]:
+            made[-2:] = [made[-1]._replace(text=r"\pvint")]
+    return made
+
+
+def _command(match: re.Match[str], before: list[Token]) -> list[Token]:
+    text = match[0] if match["command"] else str(match.lastgroup)
+    scripts = [each.text in ("^", "_") for each in before[-2:]]
+    if text in (r"\ast", r"\star") and any(scripts) and (scripts[-1] or before[-1].text == "{"):
+        text = "*"
+    kind, other = _TABLE.get(text, ("LETTER" if text.isalpha() else text, ""))
+    return [Token(kind, other or text, match.start())]
+
+
+def _frame(kind: str, text: str, at: int) -> Token:
+    return Token(kind, re.sub(r"\\left|\s", "", text), at)
+
+
+def _number(match: re.Match[str], _: list[Token]) -> list[Token]:
+    text = match[0].replace("{,}", ".")
+    return [Token("NUMBER", text, match.start(), size=len(text))]
+
+
+def _order(match: re.Match[str], before: list[Token]) -> list[Token]:
+    """O(...) and o(...) are remainders after a sign."""
+    if match[0] in "Oo" and (not before or before[-1].type != "SIGN"):
+        return [Token("LETTER", match[0], match.start())]
+    return [Token("SMALLER" if match[0] == "o" else "REST", match[0], match.start())]
+
+
+def _stacked(match: re.Match[str], _: list[Token]) -> list[Token]:
+    r"""Read \underset{x \to 0}{\sim} as the relation and its limit."""
+    limit = scan(match.string, *match.span("beneath"))
+    under = [each._replace(type=f"UNDER {each.type}") for each in limit]
+    return [Token(*_TABLE[match["relation"]], match.start()), *under]
+
+
+def _mixed(match: re.Match[str], before: list[Token]) -> list[Token]:
+    r"""Read \text{for $x > 0$} as \text{for} x > 0."""
+    made, start = list[Token](), match.start("mixture")
+    for n, part in enumerate(match["mixture"].split("$")):
+        span = (start, start + len(part))
+        made += scan(match.string, *span) if n % 2 else _worded(part, "", match, span, before)
+        start = span[1] + 1
+    return made
+
+
+def _words(match: re.Match[str], before: list[Token]) -> list[Token]:
+    group = next(each for each in ("old", "inner", "letter") if match[each] is not None)
+    return _worded(match[group], match["font"] or "", match, match.span(group), before)
+
+
+def _worded(
+    words: str, font: str, match: re.Match[str], span: tuple[int, int], before: list[Token]
+) -> list[Token]:
+    """Read words: parts of an index, the name of a function, letters, or words."""
+    inner, at, letters = words.strip(), match.start(), scan(match.string, *span)
+    if before and before[-1].text in ("_", "^"):
+        return [Token("{", "{", at), *letters, Token("}", "}", at)]
+    if _in_script(before):
+        return letters
+    if inner in _UPRIGHT and font not in ("mathit", "textit", "mathbf"):
+        return [Token(*_TABLE[_UPRIGHT[inner]], at)]
+    last = next((each for each in reversed(before) if each.type not in ("GAP", "}")), None)
+    is_unit = inner in _UNITS and last is not None and last.type == "NUMBER"
+    if not is_unit and (len(inner) <= 1 or not any(map(str.isalpha, inner))):
+        return letters
+    word = " ".join(re.sub(r"\\(?:[,;:! ]|$)|~", " ", inner).split()).strip(" ,.;")
+    kind = "TEXT" if is_unit else _KINDS.get(word.lower().strip(" :"), "TEXT")
+    return [Token(kind, rf"\text{{{word}}}" if kind == "TEXT" else rf"\{kind.lower()}", at)]
+
+
+def _in_script(before: list[Token]) -> bool:
+    """Whether the next token is in the braces of an exponent or an index."""
+    depth = 0
+    for n in range(len(before) - 1, 0, -1):
+        depth += (before[n].text == "}") - (before[n].text == "{")
+        if depth < 0:
+            return before[n - 1].text in ("^", "_")
+    return False
+
+
+_READERS: Mapping[str, Callable[[re.Match[str], list[Token]], list[Token]]] = {
+    "number": _number,
+    "order": _order,
+    "stacked": _stacked,
+    "begin": lambda match, _: [_frame("BEGIN", match["opening"], match.start())],
+    "end": lambda match, _: [_frame("END", match["ending"], match.start())],
+    "mixed": _mixed,
+    "roman": _words,
+    "words": _words,
+}
+
+
+_CLOSING = {"(": ")", "{": "}", "[": "]", "BEGIN": "END"}
+
+
+def partner(tokens: Sequence[Token], at: int) -> int:
+    """Return the position of the bracket that closes the one at a position, or the end."""
+    depth = 0
+    for n in range(at, len(tokens)):
+        depth += (tokens[n].type in _CLOSING) - (tokens[n].type in _CLOSING.values())
+        if depth == 0:
+            return n
+    return len(tokens)
+
+
+def _unframed(tokens: list[Token]) -> list[Token]:
+    """Remove braces or an environment around all; the rows of this environment are statements."""
+    first, end = (tokens[0], partner(tokens, 0)) if tokens else (None, 0)
+    if first is None or first.type not in ("{", "BEGIN", "GAP") or end == len(tokens):
+        return tokens
+    inside, after = tokens[1:end], tokens[end + 1 :]
+    if first.type == "BEGIN":
+        known = first.text.removeprefix(_CURLY) in (*_VALUES, *_BLOCKS, r"\begin{array}")
+        alone = all(each.type in ("COMMA", ".", ";", "GAP") for each in after)
+        known = known and tokens[end].text[5:] in first.text
+        if not (known and alone) or any(each.type == "BEGIN" for each in inside):
+            return tokens
+    elif first.type == "{" and (after or tokens[end].type != "}"):
+        return tokens
+    return _unframed([*inside, *after])
+
+
+def _nested(tokens: list[Token]) -> list[Token]:
+    """Give each token its depth; rows and columns outside cases are lines and wide spaces."""
+    made, opened, remedy = list[Token](), list[Token](), "correct the brackets"
+    for n, token in enumerate(tokens):
+        kind, follows = token.type, tokens[n + 1].type if n + 1 < len(tokens) else ""
+        if kind in _CLOSING.values():
+            last = opened.pop() if opened else token
+            name = last.text.removeprefix(_CURLY).replace("begin", "end")
+            if _CLOSING.get(last.type) != kind or (kind == "END" and name != token.text):
+                raise Unclear(token.at, "a closing bracket matches nothing", remedy)
+            kind = "BLOCK" if last.text in _BLOCKS else kind
+        in_cases = any(each.type == "BEGIN" and each.text not in _BLOCKS for each in opened)
+        if kind in ("LINE", "&"):
+            inner = any(each.text not in _BLOCKS for each in opened)
+            plain_kind = "LINE" if kind == "LINE" and not inner else "GAP"
+            kind = ("ROW", "COL")[kind == "&"] if in_cases else plain_kind
+        elif kind == "BEGIN" and token.text not in (*_VALUES, *_BLOCKS):
+            known = token.text in (_CURLY + each for each in (*_VALUES, r"\begin{array}"))
+            kind = kind if known else "FRAME"
+        is_end = in_cases and kind in ("COMMA", ".", ";") and follows in ("LINE", "&", "END")
+        if not is_end and token.text not in _BLOCKS and kind != "BLOCK":
+            depth = sum(each.text not in _BLOCKS for each in opened)
+            made.append(token._replace(type=kind, depth=depth))
+        if token.type in _CLOSING:
+            opened.append(token)
+        if len(opened) > _DEEPEST:
+            raise Unclear(token.at, "brackets are nested too deeply", remedy)
+    if opened:
+        raise Unclear(opened[-1].at, f"this {opened[-1].text} is not closed", remedy)
+    return made
+
+
+def derivative(tokens: Sequence[Token], at: int) -> int:
+    """Return where the denominator of a quotient of differentials begins; 0 if there is none."""
+    if [each.type for each in tokens[at : at + 2]] != ["FRAC", "{"]:
+        return 0
+    below = partner(tokens, at + 1) + 2
+    texts = [each.text for each in (*tokens[at + 2 : at + 3], *tokens[below - 1 : below + 1])]
+    return below if len(texts) == 3 and texts[1] == "{" and {texts[0], texts[2]} <= _D else 0
+
+
+_D = frozenset(("d", r"\dd"))
+
+
+def _differentials(tokens: list[Token]) -> list[Token]:
+    r"""Read d in derivatives, and before a variable of integration, as \dd."""
+    made = list(tokens)
+    for n in range(len(made)):
+        if below := derivative(made, n):
+            for at in (n + 2, below):
+                made[at] = made[at]._replace(type="DIFF", text=r"\dd")
+    free = [
+        n
+        for n, each in enumerate(made)
+        if each.type == "DIFF" and made[n - 2].type not in ("FRAC", "}")
+    ]
+    integrals, seen = sum(each.type == "INT" for each in made) * (not free), False
+    for n, token in enumerate(made[:-1]):
+        seen = seen or token.type == "INT"
+        if seen and integrals and token.text == "d" and made[n + 1].type == "LETTER":
+            made[n], integrals = token._replace(type="DIFF", text=r"\dd"), integrals - 1
+    return made

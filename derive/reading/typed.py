@@ -1,0 +1,292 @@
+r"""Turn each rule of latex.lark into typed text, or refuse it.
+
+A rule has a template here, or a method of the transformer.  A method refuses what is ambiguous.
+"""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, NoReturn
+
+from lark import Transformer, v_args
+
+from derive.reading.lexer import Token, Unclear
+from derive.reading.words import COMMANDS, FUNCTIONS
+
+_TYPED = {
+    **{"=": "=", "<": "<", ">": ">", r"\le": "<=", r"\ge": ">=", r"\sim": "~"},
+    **{r"\pi": "pi", r"\infty": "oo", r"\lambda": "lam", r"\cdot": "*"},
+    **{r"\int": "integral", r"\pvint": "pv"},
+    **{**COMMANDS, r"\cot": "1/tan", r"\sec": "1/cos", r"\csc": "1/sin"},
+}
+"""The typed text of relations, signs, constants and functions."""
+
+
+FRACTION = (
+    "the numerator and denominator of this fraction are unclear",
+    "put each of them in braces",
+)
+ROOT = ("the end of this root is unclear", "use braces")
+EXPONENT = (
+    "without braces, TeX takes only one character as the exponent",
+    "put the exponent in braces",
+)
+_ARGUMENT = (
+    "the end of the function's argument is unclear",
+    "put the function and its argument in parentheses, as in (\\sin(a)) b",
+)
+_UNCLEAR = {
+    "unclear_tower": ("a power of a power needs braces", "put one of the powers in braces"),
+    "unclear_comma": (
+        "it is unclear whether this comma separates thousands",
+        "write a decimal point, or no comma",
+    ),
+    "unclear_row": ("this row has no condition", "write \\text{otherwise}, or a condition"),
+}
+"""Why these rules of the grammar are refused."""
+_LEVELS = {"": 0, "product": 1, "power": 2, "atom": 3}
+_TEMPLATES = {
+    "modulus": ("atom", "abs({1})"),
+    "fraction": ("product", "{1:product}/{2:power}"),
+    "over": ("product", "{1:product}/{3:power}"),
+    "root": ("atom", "sqrt({1})"),
+    "nth_root": ("power", "{2:atom}**(1/{1:power})"),
+    "euler": ("atom", "exp(1)"),
+    "exponential": ("atom", "exp({2})"),
+    "integral": ("atom", "{0}({2}, {4}, {1.low}, {1.high})"),
+    "series": ("atom", "sum({2}, {1.along}, {1.low}, {1.high})"),
+    "limit": ("atom", "limit({5}, {2}, {4})"),
+}
+"""The precedence and the typed text of rules, with the parts of the rule by their numbers."""
+_BOUND = {"series": r"\b{1.along}\b", "limit": ""}
+"""A pattern for terms that may belong to the sum or limit before them."""
+_SINGLE = {"fraction": FRACTION, "root": ROOT, "nth_root": ROOT}
+"""Rules that take a single token if there are no braces, and what is unclear otherwise."""
+FUNCTION = frozenset(("FUNC", "CIRCULAR"))
+_AFTER_BRACKETS = FUNCTION | {"OPERATOR", "FRAC", "SQRT"}
+"""What may follow an argument whose end is shown by brackets or bars."""
+
+
+@dataclass(frozen=True)
+class _Code:
+    """A piece of typed text.
+
+    level    its precedence
+    kind     the terminal with which its last factor begins
+    at       the place of this factor
+    size     the number of tokens of a number or a symbol
+    is_one   whether it is one factor
+    slashed  whether a slash stands before its last factor
+    follow   the terminals that may follow; None if any may
+    bound    a pattern for terms that may belong to a sum or a limit at its end
+    """
+
+    text: str
+    level: str
+    kind: str
+    at: int
+    size: int = 1
+    is_one: bool = True
+    slashed: bool = False
+    follow: frozenset[str] | None = None
+    bound: str | None = None
+
+    def __format__(self, level: str) -> str:
+        """Return the text for use at a level, in parentheses if they are needed."""
+        return self.text if _LEVELS[self.level] >= _LEVELS[level] else f"({self.text})"
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The limits of an integral or a sum, and the variable of a sum."""
+
+    low: _Code
+    high: _Code
+    along: str
+
+
+@v_args(inline=True)
+class _Typed(Transformer[Any, Any]):
+    """The typed text of each rule of the grammar."""
+
+    def __getattr__(self, rule: str) -> Callable[[list[Any]], _Code]:
+        """Return what makes the typed text of a rule that has no method."""
+        if rule in _TEMPLATES:
+            return lambda parts: _from_template(rule, *parts)
+        if rule in _UNCLEAR:
+            return lambda parts: _refused(rule, *parts)
+        raise AttributeError(rule)
+
+    def side(self, code: _Code) -> str:
+        return code.text
+
+    def approach(self, left: _Code, _: Token, right: _Code) -> str:
+        return f"{left} -> {right}"
+
+    def conditions(self, *parts: Any) -> str:
+        joints = {each.type for each in parts if isinstance(each, Token)}
+        texts = [each for each in parts if isinstance(each, str)]
+        if "OR" in joints and len(joints) > 1:
+            why = "some of these conditions are joined by `or`, and others by `and` or a comma"
+            raise Unclear(parts[1].at, why, "write the condition as text")
+        return (" or " if "OR" in joints else " and ").join(texts)
+
+    def comparison(self, *parts: Any) -> str:
+        relations = [each.type for each in parts[1::2]]
+        if not relations or ("NE" in relations and len(relations) > 1):
+            raise Unclear(parts[0].at, "this is not a condition", "write a relation, such as x < a")
+        if relations == ["NE"]:
+            return "({0} < {2} or {0} > {2})".format(*parts)
+        return " ".join(typed(each) if isinstance(each, Token) else each.text for each in parts)
+
+    # sums, products and powers
+
+    def signed(self, sign: Token, term: _Code) -> _Code:
+        text = f"{sign.text.strip('+')}{term:product}"
+        return replace(term, text=text, level="", is_one=False)
+
+    def added(self, left: _Code, sign: Token, term: _Code) -> _Code:
+        if left.bound is not None and re.search(left.bound, term.text):
+            what = "sum" if left.bound else "limit"
+            why = f"it is unclear whether this belongs to the {what}"
+            raise Unclear(sign.at, why, "use parentheses")
+        bound = left.bound if term.bound is None else term.bound
+        text = f"{left} {sign.text} {term:product}"
+        return replace(term, text=text, level="", is_one=False, bound=bound)
+
+    def multiplied(self, left: _Code, operator: Token | None, right: _Code) -> _Code:
+        at, kind = (operator.at, operator.type) if operator else (right.at, right.kind)
+        if left.follow is not None and kind not in left.follow:
+            raise Unclear(at, *_ARGUMENT)
+        if left.slashed and not operator:
+            why = "it is unclear whether this belongs to the denominator"
+            raise Unclear(at, why, "write \\frac, or use parentheses")
+        if left.kind == "NUMBER" and kind == "FRAC" and re.fullmatch(r"[\d.]+/[\d.]+", right.text):
+            why = "a number before a numerical fraction may mean a sum, as in 3 1/2"
+            raise Unclear(at, why, "put \\cdot or + between them")
+        sign = typed(operator) if operator else "*"
+        factor = f"{right:power}" if sign == "/" else f"{right:product}"
+        slashed, text = left.slashed or sign == "/", f"{left:product}{sign}{factor}"
+        return replace(right, text=text, level="product", is_one=False, slashed=slashed)
+
+    def raised(self, base: _Code, power: Token, exponent: _Code) -> _Code:
+        if base.follow is not None:
+            raise Unclear(power.at, *_ARGUMENT)
+        if base.text == "e" and not exponent.text.isdigit():
+            why = "it is unclear whether e is a symbol here"
+            remedy = "write \\exp(...) or \\mathrm{e}^{...}, or rename the symbol"
+            raise Unclear(base.at, why, remedy)
+        return replace(base, text=f"{base:atom}**{exponent:atom}", level="power")
+
+    # factors
+
+    def mark(self, token: Token) -> _Code:
+        return _Code(typed(token), "atom", token.type, token.at, token.size)
+
+    def held(self, _: Token, code: _Code) -> _Code:
+        return replace(code, size=1)
+
+    def short(self, code: _Code) -> _Code:
+        if code.size > 1:
+            raise Unclear(code.at, *EXPONENT)
+        return code
+
+    def group(self, inner: _Code) -> _Code:
+        return _Code(inner.text, inner.level, "(", inner.at)
+
+    def braces(self, brace: Token, inner: _Code) -> _Code:
+        if not inner.is_one:
+            why = "these braces group terms but are not printed"
+            raise Unclear(brace.at, why, "use parentheses")
+        return inner
+
+    def integral_over(self, *parts: Any) -> _Code:
+        sign, limits, before, bar, _, over, differential, along, under = parts
+        over = replace(over, size=1) if over else _Code("1", "atom", "", bar.at)
+        inside = _from_template("fraction", bar, over, under)
+        if before:
+            inside = self.multiplied(before, None, inside)
+        return _from_template("integral", sign, limits, inside, differential, along)
+
+    def limits(self, *parts: Any) -> Limits:
+        upper = next(n for n, each in enumerate(parts) if getattr(each, "type", "") == "POWER")
+        low = next(
+            each for n, each in enumerate(parts) if isinstance(each, _Code) and n != upper + 1
+        )
+        names = [typed(each) for each in parts if getattr(each, "type", "") == "SYMBOL"]
+        return Limits(low, parts[upper + 1], "".join(names))
+
+    def cases(self, *parts: Any) -> _Code:
+        rows = ", ".join(each for each in parts if isinstance(each, str))
+        return _Code(f"Piecewise({rows})", "atom", "BEGIN", parts[0].at)
+
+    def row(self, value: _Code, *rest: Any) -> str:
+        return f"({value}, {rest[-1] if isinstance(rest[-1], str) else 'True'})"
+
+    # functions
+
+    def multiple(self, *tokens: Token) -> tuple[str, list[str], int]:
+        return "multiple", ["*".join(map(typed, tokens))], tokens[1].at
+
+    def bare(self, code: _Code) -> tuple[str, list[str], int]:
+        return "shown" if code.kind == "LBAR" else "bare", [code.text], code.at
+
+    def bracketed(self, *parts: Any) -> tuple[str, list[str], int]:
+        return "shown", [each.text for each in parts[::2]], parts[-1].at
+
+    def braced(self, brace: Token, *parts: Any) -> tuple[str, list[str], int]:
+        if any(each.level == "" for each in parts[::2]):
+            why = "braces are not printed, so the end of the argument is unclear"
+            raise Unclear(brace.at, why, "use parentheses")
+        return "bare", [each.text for each in parts[::2]], parts[-1].at
+
+    def function(self, command: Token, *parts: Any) -> _Code:
+        base, power, exponent, (ending, texts, second) = parts
+        name, digits = typed(command), exponent.text if exponent else ""
+        if digits == "-1" and f"a{name}" in FUNCTIONS:
+            name, power = f"a{name}", None
+        if power and not (digits.isdigit() and int(digits) > 1):
+            why = "this power of a function may mean its inverse function"
+            raise Unclear(power.at, why, "write \\arcsin, or a fraction")
+        if base and power:
+            raise Unclear(command.at, "the power of this logarithm is unclear", "use ()")
+        if base and command.text != r"\log":
+            raise Unclear(base.at, "_ is not allowed here", "remove it")
+        circular = command.type == "CIRCULAR"
+        if ending == "multiple" and not circular:
+            raise Unclear(second, *_ARGUMENT)
+        inverse, _, name = name.rpartition("/")
+        if len(texts) > FUNCTIONS[name].most:
+            raise Unclear(second, f"{command.text} has one argument", "write it alone")
+        text, level = f"{name}({', '.join(texts)})", "power" if power else "atom"
+        text += f"**{digits}" if power else ""
+        if inverse or base:
+            text, level = f"1/{text}" if inverse else f"{text}/log({base})", "product"
+        follow = FUNCTION if circular else frozenset[str]()
+        follow = _AFTER_BRACKETS if ending == "shown" else follow
+        return _Code(text, level, command.type, command.at, follow=follow)
+
+
+def _from_template(rule: str, *parts: Any) -> _Code:
+    for each in parts:
+        if rule in _SINGLE and isinstance(each, _Code) and each.size > 1:
+            raise Unclear(each.at, *_SINGLE[rule])
+    texts = [typed(each) if isinstance(each, Token) else each or "1" for each in parts]
+    level, template = _TEMPLATES[rule]
+    bound = _BOUND[rule].format(*texts) if rule in _BOUND else None
+    return _Code(template.format(*texts), level, parts[0].type, parts[0].at, bound=bound)
+
+
+def _refused(rule: str, *parts: Any) -> NoReturn:
+    token = next((each for each in reversed(parts) if isinstance(each, Token)), parts[0])
+    raise Unclear(token.at, *_UNCLEAR[rule])
+
+
+def typed(token: Token) -> str:
+    """Return the typed text of a token."""
+    return _TYPED.get(token.text, token.text.removeprefix("\\"))
+
+
+def transformer() -> Transformer[Any, Any]:
+    """Return what the parser calls for each rule."""
+    return _Typed()
