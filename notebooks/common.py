@@ -151,7 +151,7 @@ def _printed_K_T() -> tuple[Callable[..., Array], Callable[..., Array]]:
     claims = (paper()[f"K_T/tilted/{side}"] for side in ("left", "right"))
     Delta_Q, Delta_sigma, a, c = symbols("Delta_Q Delta_sigma a c")
     left, right = (
-        lambdify((Delta_Q, Delta_sigma, own), claim.right, "numpy")
+        lambdify((Delta_Q, Delta_sigma, own), claim.meant.right, "numpy")
         for claim, own in zip(claims, (a, c), strict=True)
     )
     return left, right

@@ -5,10 +5,14 @@ Out:  the file with these readings, or an error and the file as it was.
 """
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
-from derive.check.lines import with_lines
+import tomlkit
+from tomlkit.items import Comment, Table, Whitespace
+
 from derive.check.printed import Reading
 from derive.check.userfile import source
 from derive.command import files
@@ -19,10 +23,8 @@ _REMEDY = "add the lines `understood = ...` by hand"
 
 def demand_writable(path: Path) -> None:
     """Raise BadClaimsFile if the file cannot be replaced; call this before asking the user."""
-    try:
+    with _writing(path):
         files.demand_writable(path.resolve())
-    except OSError as error:
-        raise _unwritable(path, error) from error
 
 
 def accept(path: Path, readings: Sequence[Reading]) -> None:
@@ -32,34 +34,38 @@ def accept(path: Path, readings: Sequence[Reading]) -> None:
     one by more than these entries.
     """
     text, data = source(path)
-    wanted = {reading.number: reading.understood for reading in readings}
-    new = with_lines(text, len(data["claims"]), wanted)
-    for number, understood in wanted.items():
-        claim = data["claims"][number - 1]
-        claim["understood"] = understood
-        if "accepted" in claim:
-            claim["accepted"] = True
-    if new is None or not _is(new, data):
+    document = tomlkit.parse(text)
+    is_kept = tomlkit.dumps(document) == text  # tomlkit may move claims after another table
+    for reading in readings:
+        for claims in (data["claims"], document["claims"]):
+            _accept(claims[reading.number - 1], reading.understood)
+    new = tomlkit.dumps(document)
+    if not is_kept or tomllib.loads(new) != data:
         why = "the layout of this file does not allow the readings to be inserted automatically"
         raise BadClaimsFile(str(path), why, _REMEDY)
-    _replace(path, new)
+    with _writing(path):
+        target = path.resolve()
+        files.write_whole(new.encode(), target, mode=target.stat().st_mode & 0o777)
 
 
-def _is(text: str, data: dict[str, object]) -> bool:
+def _accept(claim: dict[str, Any], understood: str) -> None:
+    """Set the entries of a claim; a new entry stands before the comments at the claim's end."""
+    body = claim.value.body if isinstance(claim, Table) else []
+    end = len(body)
+    while end and isinstance(body[end - 1][1], Comment | Whitespace) and "understood" not in claim:
+        end -= 1
+    rest, body[end:] = body[end:], []
+    claim["understood"] = understood
+    if "accepted" in claim:
+        claim["accepted"] = True
+    body += rest
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """Raise BadClaimsFile if the file cannot be written."""
     try:
-        return tomllib.loads(text) == data
-    except tomllib.TOMLDecodeError:
-        return False
-
-
-def _replace(path: Path, text: str) -> None:
-    """Replace the text of the file, or leave the file unchanged if this fails."""
-    target = path.resolve()
-    try:
-        files.write_whole(text.encode(), target, mode=target.stat().st_mode & 0o777)
+        yield
     except OSError as error:
-        raise _unwritable(path, error) from error
-
-
-def _unwritable(path: Path, error: OSError) -> BadClaimsFile:
-    return BadClaimsFile(str(path), f"the file cannot be written ({error.strerror})", _REMEDY)
+        why = f"the file cannot be written ({error.strerror})"
+        raise BadClaimsFile(str(path), why, _REMEDY) from error

@@ -7,28 +7,21 @@ stick, or another symbol.  A change of sign is an ordinary entry of this mapping
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from enum import StrEnum
+from dataclasses import dataclass, field, replace
+from typing import Any
 
+import msgspec
 from mpmath import mpf
 from sympy import Expr, Rational, S, Symbol
 from sympy.logic.boolalg import Boolean
 
+from derive.check.schema import AsExpected, AsPrinted, Verdict
 from derive.reading.relation import Relation
+
+__all__ = ["Verdict"]
 
 Meaning = Mapping[Symbol, Expr]
 Point = dict[Symbol, mpf]
-
-
-class Verdict(StrEnum):
-    """The verdict on a claim."""
-
-    HOLDS = "holds"
-    NUMERICAL = "numerical"
-    DEFINITION = "by definition"
-    CONVENTION = "convention"
-    FAILS = "fails"
-    UNCHECKED = "unchecked"
 
 
 @dataclass(frozen=True)
@@ -93,74 +86,51 @@ class Rounded:
     power: int
 
 
-@dataclass(frozen=True)
-class Claim:
-    """One part of a displayed equation, or one statement of the text.
+NOTHING_EXPECTED = AsExpected()
 
-    label        a unique label; the source's own label if it has one
-    place        the location in the source, for the reader
-    equation     the displayed equation to which it belongs; empty for a statement of the text
-    says         the statement in words
+
+@dataclass(frozen=True)
+class AsMeant:
+    """The comparison that a claim stands for.
+
     left, right  the printed sides, in the source's symbols
     relation     the relation between them
-    reached      the check of a bound on both sides of the state in which it is reached
     meaning      the meanings of the source's symbols, in our variables
-    against      what the claim is compared with, in words
-    ranges       ranges of our variables; the others are positive and have the range SCALE
-    conditions   conditions, in our variables, that every point must satisfy
-    defined      whether the file's definitions make both sides the same expression
-    toward       for a claim about a limit, the expression in our variables and its end
-    order        for such a claim, the order of the difference; None if the ratio tends to 1
-    units        a description of the units that do not fit; empty if they fit
-    latex        the printed LaTeX, if the file gives it
-    rounded      the constant that is printed rounded, if there is exactly one
-    conventions  sign conventions that are tried if the claim is not true as printed
+    reached      the check of a bound on both sides of the state in which it is reached
     through      two expressions that must agree when the symbol `left` is replaced by `right`;
                  used for a definition, which cannot be wrong by itself
+    toward       for a claim about a limit, the expression in our variables and its end
+    order        for such a claim, the order of the difference; None if the ratio tends to 1
+    conventions  sign conventions that are tried if the claim is not true as printed
+    ranges       ranges of our variables; the others are positive and have the range SCALE
+    conditions   conditions, in our variables, that every point must satisfy
     cases        the points to use, with numbers as text, if more would take too long
-    source       the printed equation as text, which keeps its form; SymPy would simplify it
-    reading      reads a changed form of `source` as both sides; None for one that cannot be read
-    seconds      the time limit of the verdict, and then of the search for a correction
     family       claims of one family share their points, so that integrals are computed once
+    defined      whether the file's definitions make both sides the same expression
+    rounded      the constant that is printed rounded, if there is exactly one
+    reading      reads a changed form of the equation as both sides, or returns None
     swaps        symbols that may have been confused with each other
     unit_of      the units of the names in the equation and of the variables, where they are known
-    steps        the steps of the comparison, for `--explain`
-    unchecked    the reason why the claim cannot be decided; empty if it can
-    expected     the verdict that was found when a person last examined the claim
-    consequence  the effect of the error on a user's results
     """
 
-    label: str
-    place: str
-    says: str
     left: Expr = S.Zero
     right: Expr = S.Zero
     relation: Relation = Relation.EQUAL
-    reached: Bound | None = None
-    equation: str = ""
     meaning: Meaning = field(default_factory=dict)
-    against: str = ""
-    ranges: Mapping[Symbol, Range] = field(default_factory=dict)
-    conditions: tuple[Boolean, ...] = ()
-    defined: bool = False
+    reached: Bound | None = None
+    through: tuple[Expr, Expr] | None = None
     toward: tuple[Expr, Expr] | None = None
     order: float | None = None
-    units: str = ""
-    latex: str = ""
-    rounded: Rounded | None = None
     conventions: tuple[Convention, ...] = ()
-    through: tuple[Expr, Expr] | None = None
+    ranges: Mapping[Symbol, Range] = field(default_factory=dict)
+    conditions: tuple[Boolean, ...] = ()
+    cases: tuple[Mapping[Symbol, str], ...] = ()
+    family: str = ""
+    defined: bool = False
+    rounded: Rounded | None = None
+    reading: Callable[[str], tuple[Expr, Expr] | None] | None = None
     swaps: tuple[Symbol, ...] = ()
     unit_of: Mapping[Symbol, str] = field(default_factory=dict)
-    cases: tuple[Mapping[Symbol, str], ...] = ()
-    source: str = ""
-    reading: Callable[[str], tuple[Expr, Expr] | None] | None = None
-    seconds: float | None = None
-    family: str = ""
-    steps: tuple[str, ...] = ()
-    unchecked: str = ""
-    expected: Verdict | None = None
-    consequence: str = ""
 
     def sides(self, left: Expr, right: Expr) -> tuple[Expr, Expr]:
         """Return the expressions to compare for the given printed sides."""
@@ -170,25 +140,52 @@ class Claim:
         return self.through[0].xreplace(replaced), self.through[1].xreplace(replaced)
 
     @property
+    def is_inequality(self) -> bool:
+        """Whether the claim is judged by which side is larger."""
+        return self.relation.is_ordered and self.reached is None
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One part of a displayed equation, or one statement of the text.
+
+    units      a description of the units that do not fit; empty if they fit
+    unchecked  the reason why the claim cannot be decided; empty if it can
+    seconds    the time limit of the verdict, and then of the search for a correction
+    """
+
+    printed: AsPrinted
+    meant: AsMeant = AsMeant()
+    expected: AsExpected = NOTHING_EXPECTED
+    units: str = ""
+    unchecked: str = ""
+    seconds: float | None = None
+
+    def changed(self, **meant: Any) -> "Claim":
+        """Return the claim with other fields of its meaning, such as other sides."""
+        return replace(self, meant=replace(self.meant, **meant))
+
+    def with_text(self, text: str) -> "Claim":
+        """Return the claim with another text of its equation."""
+        return replace(self, printed=msgspec.structs.replace(self.printed, text=text))
+
+    @property
     def name(self) -> str:
         """The name for readers: the place of an equation instead of its label in LaTeX."""
-        has_number = self.equation or re.match(r"[A-Za-z]+:\S", self.label)
-        return self.place if has_number and self.place else self.label
+        printed = self.printed
+        has_number = printed.equation or re.match(r"[A-Za-z]+:\S", printed.label)
+        return printed.place if has_number and printed.place else printed.label
 
     @property
     def consequences(self) -> list[str]:
         """The consequence, one statement in each line."""
-        return self.consequence.split("; ") if self.consequence else []
+        return self.expected.consequence.split("; ") if self.expected.consequence else []
 
     def is_called(self, given: str) -> bool:
         """Whether a user may mean this claim: by its label, its name or its equation number."""
-        numbers = (self.equation, f"eq. {self.equation}") if self.equation else ()
-        return given in (self.label, self.name, *numbers)
-
-    @property
-    def is_inequality(self) -> bool:
-        """Whether the claim is judged by which side is larger."""
-        return self.relation.is_ordered and self.reached is None
+        number = self.printed.equation
+        numbers = (number, f"eq. {number}") if number else ()
+        return given in (self.printed.label, self.name, *numbers)
 
 
 @dataclass(frozen=True)
@@ -203,11 +200,11 @@ class Paper:
     signs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        labels = [claim.label for claim in self.claims]
+        labels = [claim.printed.label for claim in self.claims]
         assert len(labels) == len(set(labels)), "two claims have the same label"
 
     def __getitem__(self, label: str) -> Claim:
-        return next(claim for claim in self.claims if claim.label == label)
+        return next(claim for claim in self.claims if claim.printed.label == label)
 
     def called(self, given: str) -> tuple[Claim, ...]:
         """Return the claims that a user may mean: one by its name, or all of one equation."""

@@ -1,8 +1,7 @@
 """Collect what is needed to read the equations of a claims file, and substitute their calls.
 
-Context   the body, if there is one, and the variables
-Meant     the meanings of the symbols of the source
-Put       a printed equation with its calls as symbols, and the meanings of these symbols
+Context   the body, if there is one, the variables, and the symbols of the source
+Meant     the meanings of these symbols
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -15,8 +14,10 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
 from derive.check.bodies import ProvenBody, placed
-from derive.check.claim import Meaning
+from derive.check.mistakes import TimeLimit
+from derive.check.schema import Place
 from derive.command.errors import UserError
+from derive.reading.formula import Names, equation, formula
 from derive.reading.improper import (
     FROM_POLE,
     IMPROPER,
@@ -27,56 +28,105 @@ from derive.reading.improper import (
 )
 from derive.reading.units import Call, Dimension, Units, parse_unit
 from derive.sheet.formulas import FormulaSheet
-from derive.symbols import E_star, M, P, e, f, x
+from derive.symbols import M, P, e, x
 
 PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
-_UNITS = {E_star: parse_unit("Pa"), f: parse_unit("-")}
 _CALLS = (AppliedUndef, Derivative, Limit, *IMPROPER)
 
 
 @dataclass(frozen=True)
-class Context:
-    """The body of a claim, if there is one, and the variables with their units.
+class Meant:
+    """The meanings of the symbols of the source.
 
-    units      units that the file declares
-    inherited  units of the parameters of the file's body, if the claim has another one
+    as_written    meanings as in the file, with other symbols substituted and calls kept
+    in_variables  meanings in terms of variables only
+    wrong         the error in the formula of a symbol, or of one that it uses, by its name
+    missing       for a symbol whose formula uses one without a meaning, the name of that one
+    uses          for each symbol, the names of all symbols that its definition uses
+    """
+
+    as_written: dict[Symbol, Expr] = field(default_factory=dict)
+    in_variables: dict[Symbol, Expr] = field(default_factory=dict)
+    wrong: dict[str, UserError] = field(default_factory=dict)
+    missing: dict[str, str] = field(default_factory=dict)
+    uses: dict[str, set[str]] = field(default_factory=dict)
+
+    def without(self, changed: Iterable[str]) -> "Meant":
+        """Return the meanings that do not depend on the symbols that are redefined."""
+        names = set(changed)
+        kept = {n: used for n, used in self.uses.items() if not (used | {n}) & names}
+        as_written, in_variables = (
+            {symbol: expr for symbol, expr in table.items() if symbol.name in kept}
+            for table in (self.as_written, self.in_variables)
+        )
+        return Meant(as_written, in_variables, uses=kept)
+
+
+@dataclass(frozen=True)
+class Context:
+    """What the equations of a claim may refer to.
+
+    variables  the variables by name
+    units      the units of variables and symbols, as far as they are declared
+    symbols    the formula of each symbol of the source as text; empty if it has none
+    place      the file
     """
 
     body: ProvenBody | None
     variables: Mapping[str, Expr]
     units: Mapping[Symbol, Dimension]
-    inherited: Mapping[Symbol, Dimension] = field(default_factory=dict)
-
-    def followed(self, meant: "Meant") -> Units:
-        """Return the known units."""
-        known, calls = {**self.inherited, **_UNITS, **self.units}, dict[str, Call]()
-        if self.sheet is not None:
-            known |= {**self.sheet.geometry.dimensions, **_UNITS, **self.units}
-            for place in PLACES.values():
-                known.setdefault(place, parse_unit("m"))
-            own = self.sheet.dimensions
-            calls = {
-                name: (tuple(own[each] for each in formula.arguments), parse_unit(formula.unit))
-                for name, formula in self.sheet.items()
-            }
-        return Units(known, meant.written, calls)
+    symbols: Mapping[str, str]
+    place: Place
+    limit: TimeLimit
+    meant: Meant = field(default_factory=Meant)
 
     @property
     def sheet(self) -> FormulaSheet | None:
         """The formula sheet of the body, or None."""
         return self.body.sheet if self.body else None
 
-    @cached_property
-    def parameters(self) -> dict[str, Expr]:
-        """The parameters of the body by name."""
-        return self.body.parameters if self.body else {}
+    def names(self, place: Place, symbols: Iterable[str] | None = None) -> Names:
+        """Return the names that an equation may hold: symbols, by default all, and variables."""
+        chosen = self.symbols if symbols is None else symbols
+        arities = {name: len(known.arguments) for name, known in (self.sheet or {}).items()}
+        return Names(str(place), {**self.variables, **{n: Symbol(n) for n in chosen}}, arities)
 
-    @cached_property
-    def arities(self) -> dict[str, int]:
-        """The number of arguments of each formula of the body."""
-        return {name: len(known.arguments) for name, known in (self.sheet or {}).items()}
+    # -------------------------------------------------------------- meanings
 
-    def put_in(self, expr: Any) -> Any:
+    def define(self, name: str, outer: tuple[str, ...] = ()) -> bool:
+        """Add the meaning of a symbol and of those that it uses; return whether it has one."""
+        symbol, meant, text = Symbol(name), self.meant, self.symbols[name]
+        if symbol in meant.in_variables or name in meant.wrong or not text:
+            return symbol in meant.in_variables
+        place = self.place.at("symbols", name, f"symbols: {name}")
+        if name in outer:
+            circle = outer[outer.index(name) :]
+            why = f"it has a circular definition through {', '.join(circle)}"
+            error = place.bad(why, "define one of these symbols without the others")
+            meant.wrong.update(dict.fromkeys(circle, error))
+            return False
+        others = {Symbol(other) for other in self.symbols if other != name}
+        names = self.names(place, [other for other in self.symbols if other != name])
+        try:
+            found = self.limit.read(place, lambda: formula(text, names))
+            for inner in sorted(free(found) & others, key=str):
+                if not self.define(inner.name, (*outer, name)):
+                    if inner.name in meant.wrong:
+                        meant.wrong.setdefault(name, meant.wrong[inner.name])
+                    meant.missing[name] = meant.missing.get(inner.name, inner.name)
+                    return False
+            found = with_real_bound(found, others - meant.in_variables.keys())
+            written = found.xreplace(meant.as_written)
+            in_variables = self.limit.read(place, lambda: self.substitute(written))
+        except UserError as error:
+            meant.wrong[name] = error
+            return False
+        used = {each.name for each in found.free_symbols}
+        meant.uses[name] = used.union(*(meant.uses.get(each, ()) for each in used))
+        meant.as_written[symbol], meant.in_variables[symbol] = written, in_variables
+        return True
+
+    def substitute(self, expr: Any) -> Any:
         """Replace the calls of the body's formulas by the proven expressions."""
         while calls := expr.atoms(AppliedUndef):
             call = min(calls, key=lambda c: (len(str(c)), str(c)))
@@ -88,70 +138,48 @@ class Context:
         expr = proper(expr)
         return expr.doit() if expr.has(Derivative, Limit) else expr
 
+    def in_variables(self, expr: Any) -> Any:
+        """Replace the symbols of the source, and the calls, by their meanings."""
+        return self.substitute(expr.xreplace(self.meant.in_variables))
+
     def conditions(self, expr: Expr) -> Iterator[Boolean]:
         """Yield the conditions under which the formulas called in an expression are defined."""
         for call in sorted(expr.atoms(AppliedUndef), key=str):
             known = self.sheet[call.func.__name__]  # type: ignore[index]
             table = dict(zip(known.arguments, call.args, strict=True))
             for condition in known.conditions:
-                yield self.put_in(condition.subs(table, simultaneous=True))
+                yield self.substitute(condition.subs(table, simultaneous=True))
         for value in sorted(expr.atoms(PrincipalValue), key=str):
-            for over in integrals(self.put_in(value)):
+            for over in integrals(self.substitute(value)):
                 if over.limits[-1][0].name.endswith(FROM_POLE):
                     yield over.limits[-1][2] > 0
 
+    # -------------------------------------------------------------- units
 
-@dataclass(frozen=True)
-class Meant:
-    """The meanings of the symbols of the source.
+    @cached_property
+    def _known_units(self) -> Units:
+        """The known units with these meanings; each equation adds to them."""
+        calls, own = dict[str, Call](), self.sheet.dimensions if self.sheet else {}
+        for name, known in (self.sheet or {}).items():
+            calls[name] = tuple(own[each] for each in known.arguments), parse_unit(known.unit)
+        return Units(dict(self.units), self.meant.as_written, calls)
 
-    written  meanings as in the file, with other symbols substituted and calls kept
-    ours     meanings in terms of variables only
-    wrong    the error in the formula of a symbol, or of one that it uses, by the symbol's name
-    lacks    for a symbol whose formula uses one without a meaning, the name of that one
-    needs    for each symbol, the names of all symbols that its definition uses
-    """
+    def mismatch(self, text: str, place: Place) -> str:
+        """Describe the units that do not fit in an equation, whether it is judged or not."""
 
-    written: dict[Symbol, Expr]
-    ours: dict[Symbol, Expr]
-    wrong: dict[str, UserError] = field(default_factory=dict)
-    lacks: dict[str, str] = field(default_factory=dict)
-    needs: dict[str, set[str]] = field(default_factory=dict)
+        def found() -> str:
+            left, _, right = equation(text, self.names(place), rough=True)
+            return self._known_units.mismatch(left, right)
 
-    def without(self, changed: Iterable[str]) -> "Meant":
-        """Return the meanings that do not depend on the symbols that are redefined."""
-        names = set(changed)
-        kept = {n: needs for n, needs in self.needs.items() if n not in names and not needs & names}
-        written, ours = (
-            {symbol: expr for symbol, expr in table.items() if symbol.name in kept}
-            for table in (self.written, self.ours)
-        )
-        return Meant(written, ours, needs=kept)
+        try:
+            return self.limit.read(place, found) if text else ""
+        except UserError:
+            return ""
 
-
-@dataclass(frozen=True)
-class Put:
-    """A printed equation's calls, each of which is represented by a symbol in the equation."""
-
-    context: Context
-    named: Mapping[Expr, Symbol]
-    meaning: Meaning
-
-    def stands_for(self, call: Expr, meaning: Meaning) -> Expr:
-        """Return the expression for a call, with the meanings of its arguments substituted."""
-        return self.context.put_in(call.xreplace(dict(meaning)))
-
-    def called(self, meaning: Meaning) -> Meaning:
-        """Return the expressions for all calls."""
-        return {symbol: self.stands_for(call, meaning) for call, symbol in self.named.items()}
-
-    def without_calls(self, side: Expr) -> Expr:
-        """Replace calls by symbols, or by expressions if they depend on an integration variable."""
-        for over in integrals(side):
-            table = {call: self.stands_for(call, self.meaning) for call in calls_along(over)}
-            inside = Integral(over.function.xreplace(table), *over.limits)
-            side = side.xreplace({over: inside})
-        return side.xreplace(dict(self.named))
+    def units_of(self, symbols: Iterable[Symbol]) -> dict[Symbol, str]:
+        """Return the units of variables and symbols, where they are known."""
+        found = {each: self._known_units.unit_of(each) for each in sorted(symbols, key=str)}
+        return {symbol: unit for symbol, unit in found.items() if unit}
 
 
 def as_text(call: Expr) -> str:

@@ -71,7 +71,7 @@ class Quotient:
 
 def diagnosis(claim: Claim) -> str:
     """Describe the ratio of the two sides in words; empty if there is nothing to report."""
-    if claim.relation.is_ordered or claim.cases or claim.toward is not None:
+    if claim.meant.relation.is_ordered or claim.meant.cases or claim.meant.toward is not None:
         return ""
     ratio = quotient(claim)
     return f"the ratio left/right is {ratio.as_text} at {ratio.count} points" if ratio else ""
@@ -91,8 +91,10 @@ class _Quotients:
 
     def __init__(self, claim: Claim) -> None:
         self.claim = claim
-        table = dict(claim.meaning)
-        self.sides = [side.xreplace(table) for side in claim.sides(claim.left, claim.right)]
+        table = dict(claim.meant.meaning)
+        self.sides = [
+            side.xreplace(table) for side in claim.meant.sides(claim.meant.left, claim.meant.right)
+        ]
 
     def measured(self) -> Quotient | None:
         """Return the ratio, or None if it is not of the required form."""
@@ -144,7 +146,7 @@ class _Quotients:
         return powers.pop() if len(powers) == 1 else None
 
     def _is_in_range(self, symbol: Symbol, point: Point) -> bool:
-        span = self.claim.ranges.get(symbol)
+        span = self.claim.meant.ranges.get(symbol)
         return span is None or span.powers or span.low < point[symbol] < span.high
 
 
@@ -234,8 +236,8 @@ def where_true(claim: Claim, is_true: Callable[[Point], bool | None]) -> str:
 
 def _comparison(claim: Claim, true: list[Point], false: list[Point]) -> str:
     """Return a comparison that is true at all true points and at none of the others."""
-    names = list(dict.fromkeys((*claim.swaps, *variables(claim))))
-    units = claim.unit_of
+    names = list(dict.fromkeys((*claim.meant.swaps, *variables(claim))))
+    units = claim.meant.unit_of
     values = {name: [_value(claim, name, point) for point in (*true, *false)] for name in names}
     signed = [(f"{one} {sign} 0", values[one], sign) for one in names for sign in "<>"]
     compared = [
@@ -257,7 +259,7 @@ def _comparison(claim: Claim, true: list[Point], false: list[Point]) -> str:
 def _value(claim: Claim, name: Symbol, point: Point) -> mpf | None:
     """Return the value of a name if it is a real number."""
     try:
-        value = evaluated(claim.meaning.get(name, name), point)
+        value = evaluated(claim.meant.meaning.get(name, name), point)
     except (Undecided, KeyError):
         return None
     return None if mpmath.im(value) != 0 else mpmath.re(value)

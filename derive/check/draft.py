@@ -10,8 +10,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from sympy import Expr, Integral, Mul, Symbol, degree, denom, solve, together
+from tomlkit import string
 
-from derive.check.lines import quoted
 from derive.check.proposals import proposal
 from derive.command.errors import BadClaimsFile, BadFormula
 from derive.command.files import demand_writable, write_new
@@ -140,9 +140,12 @@ class Draft:
             known = proposal(name, self.source)
             given = zip(("proposal", "meaning", "unit"), known, strict=True)
             inside = ", ".join(f"{key} = {_text(text)}" for key, text in given if text)
-            lines.append(f"{name} = {f'{{ {inside} }}' if inside else quoted('')}")
+            lines.append(f"{name} = {f'{{ {inside} }}' if inside else _text('')}")
         lines += ["", "[latex]"]
-        lines += [f"{quoted(spelled)} = {quoted(name)}" for spelled, name in self.spelled.items()]
+        lines += [
+            f"{string(spelled).as_string()} = {string(name).as_string()}"
+            for spelled, name in self.spelled.items()
+        ]
         if self.unread:
             lines += ["", "# These statements were not read, or not completely:"]
             lines += [f"#   {_line(each)}" for each in self.unread]
@@ -331,4 +334,4 @@ def _text(text: str) -> str:
     is_long = "\n" in text or "\\" in text
     if "'''" not in text and is_long and not text.endswith("'"):
         return f"'''\n{text}'''"
-    return quoted(text)
+    return string(text).as_string()

@@ -55,15 +55,17 @@ _GRID = 96
 
 def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]:
     """Yield the claim's own cases if it has any, or else points of moderate size."""
-    if claim.cases:
-        yield from ({symbol: mpf(text) for symbol, text in case.items()} for case in claim.cases)
+    if claim.meant.cases:
+        yield from (
+            {symbol: mpf(text) for symbol, text in case.items()} for case in claim.meant.cases
+        )
         return
     symbols, rng = variables(claim), _random(claim, seed)
     if not symbols:
         yield {}
         return
     for _ in range(count if count < POINTS or not has_integral(claim) else LEAST):
-        for _ in range(_TRIES if claim.conditions else 1):
+        for _ in range(_TRIES if claim.meant.conditions else 1):
             point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
             if is_allowed(claim, point):
                 yield point
@@ -73,7 +75,7 @@ def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]
 def is_allowed(claim: Claim, point: Point) -> bool:
     """Whether a point meets the conditions of a claim."""
     try:
-        return all(is_met(each, point) for each in claim.conditions)
+        return all(is_met(each, point) for each in claim.meant.conditions)
     except (ArithmeticError, TypeError, ValueError):  # undefined, or not real
         return False
 
@@ -97,7 +99,7 @@ def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
 
 def _further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
     symbols = variables(claim)
-    if claim.cases or not symbols:
+    if claim.meant.cases or not symbols:
         return
     few = has_integral(claim)
     rng = _random(claim, "further")
@@ -107,10 +109,10 @@ def _further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
     exprs = list(exprs)
     if few:
         yield from _past_limits(claim, symbols, _random(claim, "limits"), exprs)
-    if claim.is_inequality and not few:
+    if claim.meant.is_inequality and not few:
         pairs = _closest(claim, symbols, rng, exprs[0] - exprs[1])
         yield from (point for point, _ in pairs)
-    if not (few and claim.family):
+    if not (few and claim.meant.family):
         most = _FEWER_CHANGES if few else _CHANGES
         yield from _changes(claim, symbols, rng, exprs, most)
         yield from _peaks(claim, symbols, rng, exprs, most)
@@ -118,12 +120,12 @@ def _further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
 
 
 def _random(claim: Claim, seed: str) -> random.Random:
-    digest = hashlib.sha256(f"{claim.family or claim.label}{seed}".encode()).digest()
+    digest = hashlib.sha256(f"{claim.meant.family or claim.printed.label}{seed}".encode()).digest()
     return random.Random(int.from_bytes(digest[:8], "big"))
 
 
 def _range(claim: Claim, symbol: Symbol) -> Range:
-    return claim.ranges.get(symbol, SCALE)
+    return claim.meant.ranges.get(symbol, SCALE)
 
 
 def _drawn(span: Range, rng: random.Random) -> mpf:
@@ -133,25 +135,25 @@ def _drawn(span: Range, rng: random.Random) -> mpf:
 
 def has_integral(claim: Claim) -> bool:
     """Whether a side, or the meaning of one of its symbols, contains an integral."""
-    sides = claim.sides(claim.left, claim.right)
+    sides = claim.meant.sides(claim.meant.left, claim.meant.right)
     held = set().union(*(side.free_symbols for side in sides))
-    meanings = [expr for symbol, expr in claim.meaning.items() if symbol in held]
+    meanings = [expr for symbol, expr in claim.meant.meaning.items() if symbol in held]
     return any(expr.has(Integral) for expr in (*sides, *meanings))
 
 
 def _exprs(claim: Claim) -> list[Expr]:
-    return [*claim.sides(claim.left, claim.right), *claim.meaning.values()]
+    return [*claim.meant.sides(claim.meant.left, claim.meant.right), *claim.meant.meaning.values()]
 
 
 def variables(claim: Claim) -> list[Symbol]:
     """Return the variables that need a value at every point."""
-    sides = claim.sides(claim.left, claim.right)
+    sides = claim.meant.sides(claim.meant.left, claim.meant.right)
     held = set().union(*(side.free_symbols for side in sides))
-    symbols: set[Symbol] = set(claim.ranges)
-    for condition in (*claim.conditions, *(claim.toward or ())):
+    symbols: set[Symbol] = set(claim.meant.ranges)
+    for condition in (*claim.meant.conditions, *(claim.meant.toward or ())):
         symbols |= condition.free_symbols
     for symbol in held:
-        symbols |= claim.meaning.get(symbol, symbol).free_symbols
+        symbols |= claim.meant.meaning.get(symbol, symbol).free_symbols
     return sorted(symbols - _bound(claim), key=in_order)
 
 
@@ -163,7 +165,7 @@ def in_order(symbol: Symbol) -> tuple[str, str]:
 def _bound(claim: Claim) -> set[Symbol]:
     """Return the variables of integration, except those for which the claim has a range."""
     integrals = {over for expr in _exprs(claim) for over in expr.atoms(Integral)}
-    return {limit[0] for over in integrals for limit in over.limits} - set(claim.ranges)
+    return {limit[0] for over in integrals for limit in over.limits} - set(claim.meant.ranges)
 
 
 # ------------------------------------------------------------------ further points
@@ -174,7 +176,7 @@ def _wide(
 ) -> Iterator[Point]:
     """Yield points with the variables that have no range spread over many decades."""
     decades = _FEWER_DECADES if few else DECADES
-    free = [symbol for symbol in symbols if symbol not in claim.ranges]
+    free = [symbol for symbol in symbols if symbol not in claim.meant.ranges]
     for _ in range((_FEWER_WIDE if few else _WIDE) if free else 0):
         point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
         yield point | {symbol: mpf(10) ** rng.uniform(-decades, decades) for symbol in free}
@@ -187,7 +189,7 @@ def _at_ends(
 
     All are near the upper ends first, then near the lower ends, and then near random ends.
     """
-    limited = [symbol for symbol in symbols if symbol in claim.ranges]
+    limited = [symbol for symbol in symbols if symbol in claim.meant.ranges]
     for n in range(count if limited else 0):
         point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
         for symbol in limited:
@@ -205,7 +207,7 @@ def _corners(
 
     For claims with integrals, the two corners that `_at_ends` already covers are left out.
     """
-    limited = [symbol for symbol in symbols if symbol in claim.ranges]
+    limited = [symbol for symbol in symbols if symbol in claim.meant.ranges]
     if not limited or (few and len(limited) < 2):
         return
     count, most = 2 ** min(len(limited), 16), _FEWER_CORNERS if few else _CORNERS
@@ -249,7 +251,7 @@ def _past_limits(
     for symbol, value in values[:_MOST_PAST]:
         point = {each: _drawn(_range(claim, each), rng) for each in symbols}
         yield point | {symbol: mpf(value)}
-    free = [symbol for symbol in symbols if symbol not in claim.ranges]
+    free = [symbol for symbol in symbols if symbol not in claim.meant.ranges]
     for _ in range(_WIDE_PAST if free and wanted else 0):
         point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
         yield point | {
@@ -259,7 +261,7 @@ def _past_limits(
 
 def _may_be(claim: Claim, symbol: Symbol, value: float) -> bool:
     """Whether a variable may take a value."""
-    span = claim.ranges.get(symbol)
+    span = claim.meant.ranges.get(symbol)
     if span is None:
         return value > 0
     low, high = (2**span.low, 2**span.high) if span.powers else (span.low, span.high)
@@ -277,7 +279,7 @@ def _changes(
             if of is None or count >= most:
                 break
             point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
-            grid = _grid(claim.ranges.get(variable))
+            grid = _grid(claim.meant.ranges.get(variable))
             between = _sign_change(of, held, variable, point, grid)
             if between is not None:
                 count += 2
@@ -297,7 +299,7 @@ def _peaks(
             if of is None or variable not in held or count >= most:
                 continue
             point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
-            grid = _grid(claim.ranges.get(variable))
+            grid = _grid(claim.meant.ranges.get(variable))
             between = _sign_change(of, held, variable, point, grid)
             if between is not None:
                 count += 1
@@ -322,7 +324,7 @@ def _bottoms(
             of, held = _for_arrays(switch.of.diff(variable))
             if of is None or variable not in held or count >= most:
                 continue
-            grid = _grid(claim.ranges.get(variable))
+            grid = _grid(claim.meant.ranges.get(variable))
             between = _sign_change(of, held, variable, point, grid)
             if between is not None:
                 count += 1
@@ -430,10 +432,10 @@ def _closest(
     of, held = _for_arrays(difference)
     if of is None or not set(held) <= set(symbols):
         return
-    sense = 1 if claim.relation in (Relation.BELOW, Relation.AT_MOST) else -1
+    sense = 1 if claim.meant.relation in (Relation.BELOW, Relation.AT_MOST) else -1
     for variable in held[:_SWITCHES]:
         point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
-        grid = _grid(claim.ranges.get(variable))
+        grid = _grid(claim.meant.ranges.get(variable))
         heights = _values(of, held, variable, point, grid)
         if np.iscomplexobj(heights) or not np.any(np.isfinite(heights)):
             continue
@@ -460,7 +462,7 @@ def _closest(
 
 def touching(claim: Claim, exprs: Sequence[Expr]) -> Iterator[tuple[Point, tuple[Point, ...]]]:
     """Yield points where the sides of an inequality seem to touch, with the points beside them."""
-    if claim.cases or has_integral(claim) or not variables(claim):
+    if claim.meant.cases or has_integral(claim) or not variables(claim):
         return
     rng = _random(claim, "touching")
     pairs = _closest(claim, variables(claim), rng, exprs[0] - exprs[1])

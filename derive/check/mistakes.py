@@ -4,13 +4,19 @@ In:   errors in a file, each with its place.
 Out:  one error that reports all of them; or the reason why one claim cannot be judged.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import TypeVar
 
-from derive.check.entries import Place
-from derive.command.errors import BadClaimsFile, BadFormula, UserError
+from derive.check.schema import Place
+from derive.command.errors import BadClaimsFile, BadFormula, NotProven, UserError
+from derive.command.limit import LimitReached, within
 
+Read = TypeVar("Read")
+
+_LONG = "simplify it, or increase `seconds`"
+_UNPROVEN = "use another formula, or a simpler body"
 _SHOWN = 30
 """The largest number of characters of a formula that a reason shows."""
 
@@ -27,15 +33,6 @@ class Mistakes(UserError):
         return "\n".join([f"The claims file has {len(self.messages)} errors:", *self.messages])
 
 
-def demand_none(errors: list[UserError]) -> None:
-    """Raise a single error as it is, and several as Mistakes."""
-    messages = tuple(dict.fromkeys(error.message for error in errors))
-    if len(messages) == 1:
-        raise errors[0]
-    if messages:
-        raise Mistakes(messages)
-
-
 @dataclass
 class Collected:
     """The errors of a file that have been found so far."""
@@ -50,19 +47,49 @@ class Collected:
         except UserError as error:
             self.errors.append(error)
 
+    def demand_none(self) -> None:
+        """Raise a single error as it is, and several as Mistakes."""
+        messages = tuple(dict.fromkeys(error.message for error in self.errors))
+        if len(messages) > 1:
+            raise Mistakes(messages)
+        if messages:
+            raise self.errors[0]
+
+
+@dataclass(frozen=True)
+class TimeLimit:
+    """The time limit for reading one formula, in seconds."""
+
+    seconds: float
+
+    def read(self, place: Place, read: Callable[[], Read]) -> Read:
+        """Return the result of `read`; raise BadClaimsFile if it fails or takes too long."""
+        try:
+            with within(self.seconds):
+                return read()
+        except UserError:
+            raise
+        except LimitReached:
+            why, remedy = f"it could not be read within {self.seconds:g} s", _LONG
+        except RecursionError:
+            why, remedy = "it is nested too deeply", "simplify it"
+        except NotProven as error:
+            why, remedy = f"it uses a formula that is not proven: {error}", _UNPROVEN
+        except Exception as error:  # an error in SymPy must not stop the other claims
+            why = f"it could not be read ({type(error).__name__}: {error})"
+            remedy = "write it in another form"
+        raise place.bad(why, remedy)
+
 
 def reason(error: UserError, place: Place | None = None) -> str:
     """Describe an error in one line, without the place of the claim in which it is."""
     if isinstance(error, BadFormula):
         part = error.where.removeprefix(str(place)).lstrip(": ") if place else ""
         rest = " ".join(error.given[error.column :].split())
-        at = f"at {_cut(rest)}" if rest else "at the end"
+        rest = f"{rest[:_SHOWN]}..." if len(rest) > _SHOWN else rest
+        at = f"at {rest}" if rest else "at the end"
         return f"{part}{': ' * bool(part)}{error.why}, {at}: {error.remedy}"
     if isinstance(error, BadClaimsFile):
         why = error.why.removeprefix(place.what).lstrip(": ") if place else error.why
         return f"{why}: {error.remedy}"
     return error.message
-
-
-def _cut(text: str) -> str:
-    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."

@@ -76,8 +76,13 @@ def _verdict(finding: Finding, tag: str) -> str:
 def _section(number: int, finding: Finding) -> str:
     claim, repair = finding.claim, finding.repair
     entries = [
-        ("printed", _typeset(claim.latex) if claim.latex else _equation(claim, printed(claim))),
-        ("understood", _code(printed(claim)) if claim.latex else ""),
+        (
+            "printed",
+            _typeset(claim.printed.latex)
+            if claim.printed.latex
+            else _equation(claim, printed(claim)),
+        ),
+        ("understood", _code(printed(claim)) if claim.printed.latex else ""),
         ("units", escape(claim.units)),
         ("corrected", _equation(repair, corrected(finding) or "") if repair else ""),
         ("ratio of sides", escape(finding.diagnosis)),
@@ -85,11 +90,15 @@ def _section(number: int, finding: Finding) -> str:
         ("consequence", _lines(finding.claim.consequences)),
         ("both sides", _curves(finding)),
     ]
-    small = f" <small>{escape(claim.place)}</small>" if claim.place != claim.name else ""
+    small = (
+        f" <small>{escape(claim.printed.place)}</small>"
+        if claim.printed.place != claim.name
+        else ""
+    )
     listed = "".join(f"<dt>{head}</dt><dd>{text}</dd>\n" for head, text in entries if text)
     return (
         f'<section id="c{number}"><h3>{escape(claim.name)}'
-        f"{small}</h3>\n<p>{escape(claim.says)}: "
+        f"{small}</h3>\n<p>{escape(claim.printed.says)}: "
         f"{_verdict(finding, 'b')}</p>\n<dl>{listed}</dl></section>\n"
     )
 
@@ -101,7 +110,11 @@ def _lines(lines: Sequence[str]) -> str:
 def _equation(equation: Claim | Repair, text: str) -> str:
     """Return an equation as MathML, and below it as text, which keeps its form."""
     is_read = isinstance(equation, Repair) or not equation.unchecked
-    return (_typeset(as_displayed(equation)) if text and is_read else "") + _code(text)
+    return (
+        _typeset(as_displayed(equation if isinstance(equation, Repair) else equation.meant))
+        if text and is_read
+        else ""
+    ) + _code(text)
 
 
 def _code(text: str) -> str:
@@ -138,7 +151,10 @@ def _curves(finding: Finding) -> str:
     claim, pairs = finding.claim, finding.judged.pairs
     if finding.verdict != Verdict.FAILS or not pairs or has_integral(claim):
         return ""
-    sides = [side.xreplace(dict(claim.meaning)) for side in claim.sides(claim.left, claim.right)]
+    sides = [
+        side.xreplace(dict(claim.meant.meaning))
+        for side in claim.meant.sides(claim.meant.left, claim.meant.right)
+    ]
     point = pairs[-1].point
     held = set().union(*(side.free_symbols for side in sides)) & set(point)
     for symbol in sorted(held, key=lambda s: (bool(s.is_positive), s.name)):
@@ -153,7 +169,7 @@ def _line(finding: Finding, side: Expr, symbol: Symbol, point: Point) -> list[tu
 
     The variable runs over its range, or from half to twice its value at `point`.
     """
-    span = finding.claim.ranges.get(symbol)
+    span = finding.claim.meant.ranges.get(symbol)
     low, high = (float(point[symbol]) * part for part in (0.5, 2))
     if span is not None and not span.powers:
         low, high = span.low, span.high

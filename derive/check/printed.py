@@ -8,16 +8,13 @@ Out:  the equation as text.  NotAccepted is raised if the file does not accept t
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from derive.check.entries import Entries
 from derive.check.mistakes import reason
+from derive.check.schema import AsPrinted, Place, Terms
 from derive.command.errors import BadFormula, NotAccepted
 from derive.reading.formula import Names, equation, may_be_rounded
 from derive.reading.latex import Latex
 from derive.reading.lexer import plain
 from derive.reading.statements import statements
-
-_BESIDE = ("as", "order", "require", "given")
-"""The entries that are shown with a reading, because the verdict depends on them."""
 
 
 @dataclass(frozen=True)
@@ -40,71 +37,74 @@ class Reading:
     why: str = ""
 
 
-def printed(claim: Entries, names: Names, spellings: Mapping[str, str]) -> str:
+def equation_text(
+    printed: AsPrinted, terms: Terms, place: Place, names: Names, spellings: Mapping[str, str]
+) -> str:
     """Return the printed equation as text; raises NotAccepted."""
-    given, place = claim.data, claim.place
-    if ("printed" in given) == ("latex" in given):
+    if bool(printed.text) == bool(printed.latex):
         raise place.bad("give exactly one of `printed` and `latex`", "give exactly one")
-    if "printed" in given:
-        return claim.text("printed")
+    if printed.text:
+        return printed.text
     spelled = {**{n: n for n in names.symbols}, **_usual(names), **spellings}
-    understood = _understood(claim, spelled)
-    accepted = str(given.get("understood", ""))
-    if given.get("accepted") is False:
+    understood = _understood(printed, terms, place, spelled)
+    if not printed.accepted:
         raise NotAccepted(str(place), understood, "")
-    both = [equation(text, names, rough=True) for text in (accepted or understood, understood)]
-    if not accepted or both[0] != both[1]:
-        raise NotAccepted(str(place), understood, accepted)
-    return accepted
+    texts = (printed.understood or understood, understood)
+    both = [equation(text, names, rough=True) for text in texts]
+    if not printed.understood or both[0] != both[1]:
+        raise NotAccepted(str(place), understood, printed.understood)
+    return printed.understood
 
 
-def may_be_rough(claim: Entries, text: str) -> bool:
+def may_be_rough(terms: Terms, text: str) -> bool:
     """Whether an equation may use ~, because it has a limit or a rounded constant."""
-    return bool(claim.data.keys() & {"as", "leading"}) or may_be_rounded(text)
+    return bool(terms.approach or terms.leading) or may_be_rounded(text)
 
 
-def waiting(number: int, claim: Entries, error: NotAccepted, names: Names) -> Reading:
-    """Return the reading that waits for the user."""
-    given = claim.data
-    beside = {key: _shown(given[key]) for key in _BESIDE if key in given}
+def waiting(
+    number: int, printed: AsPrinted, terms: Terms, place: Place, error: NotAccepted, names: Names
+) -> Reading:
+    """Return the reading that waits for the user, with the entries that the verdict depends on."""
+    require = [terms.require] if isinstance(terms.require, str) else terms.require
+    order = "" if terms.order is None else f"{terms.order:g}"
+    told = {
+        "as": terms.approach,
+        "order": order,
+        "require": " and ".join(require),
+        "given": " and ".join(terms.given or ()),
+    }
+    beside = {key: text for key, text in told.items() if text}
     understood, why = error.understood, ""
     try:
-        equation(understood, names, rough=may_be_rough(claim, understood))
+        equation(understood, names, rough=may_be_rough(terms, understood))
     except BadFormula as fault:
-        why = reason(fault, claim.place)
-    label, latex = claim.text("label"), claim.text("latex")
-    return Reading(number, label, latex, understood, error.accepted, beside, why)
+        why = reason(fault, place)
+    return Reading(number, printed.label, printed.latex, understood, error.accepted, beside, why)
 
 
-def not_accepted(claim: Entries, error: NotAccepted) -> str:
+def not_accepted(printed: AsPrinted, error: NotAccepted) -> str:
     """Return the reason why a claim waits for the user, and what the user can do."""
     said = f"the file accepts {error.accepted}" if error.accepted else "the file does not accept it"
-    by_hand = f'understood = "{error.understood}"'
-    if claim.data.get("accepted") is False:
-        by_hand = "accepted = true"
+    by_hand = f'understood = "{error.understood}"' if printed.accepted else "accepted = true"
     return f"the LaTeX was read as {error.understood}, but {said}: use --accept, or write {by_hand}"
 
 
-def _understood(claim: Entries, spelled: Mapping[str, str]) -> str:
+def _understood(printed: AsPrinted, terms: Terms, place: Place, spelled: Mapping[str, str]) -> str:
     """Return the LaTeX of a claim, or one statement in its display, as text."""
-    latex = claim.text("latex")
-    reader = Latex(str(claim.place), latex, spelled)
-    if "part" not in claim.data:
+    latex, part = printed.latex, printed.part
+    reader = Latex(str(place), latex, spelled)
+    if part is None:
         return reader.understood()
-    found, part = statements(str(claim.place), latex), claim.data["part"]
-    if type(part) is not int or not 1 <= part <= len(found):
+    found = statements(str(place), latex)
+    if not 1 <= part <= len(found):
         why = f"part = {part!r} is not the number of a statement in this display"
-        raise claim.place.bad(why, f"write a number from 1 to {len(found)}")
-    printed = found[part - 1]
-    if (printed.condition or printed.order) and not claim.data.keys() & {"require", "as"}:
-        says = plain(printed.condition) or rf"{printed.small} \to 0"
+        raise place.bad(why, f"write a number from 1 to {len(found)}")
+    chosen = found[part - 1]
+    if (chosen.condition or chosen.order) and not (terms.require or terms.approach):
+        says = plain(chosen.condition) or rf"{chosen.small} \to 0"
         why = f"the display also says {says}, but neither `require` nor `as` is given"
-        raise claim.place.bad(why, "give the condition in `require`, or the limit in `as`")
-    return reader.equation(printed.tokens)
-
-
-def _shown(entry: object) -> str:
-    return " and ".join(map(str, entry)) if isinstance(entry, list) else str(entry)
+        raise place.bad(why, "give the condition in `require`, or the limit in `as`")
+    return reader.equation(chosen.tokens)
 
 
 def _usual(names: Names) -> dict[str, str]:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 import mpmath
 from sympy import Expr, Symbol
 
-from derive.check.claim import Claim, Paper, Verdict
+from derive.check.claim import AsMeant, Claim, Paper, Verdict
 from derive.check.repair import in_words
 from derive.check.verdict import Finding, Repair
 from derive.reading.relation import Relation
@@ -22,14 +22,18 @@ _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
 
 def printed(claim: Claim) -> str:
     """Return the printed equation as text, or an empty string if the claim has none."""
-    return claim.source if claim.unchecked else claim.source or _text(claim, claim.relation)
+    return (
+        claim.printed.text
+        if claim.unchecked
+        else claim.printed.text or _text(claim.meant, claim.meant.relation)
+    )
 
 
-def _text(equation: Claim | Repair, relation: Relation) -> str:
+def _text(equation: AsMeant | Repair, relation: Relation) -> str:
     return f"{text_of(equation.left)} {relation} {text_of(equation.right)}"
 
 
-def latex_of_equation(equation: Claim | Repair, relation: Relation) -> str:
+def latex_of_equation(equation: AsMeant | Repair, relation: Relation) -> str:
     """Return a printed or a corrected equation with the given relation, in LaTeX."""
     sign = _SIGNS.get(relation, relation)
     return rf"{_of(equation.left)} {sign} {_of(equation.right)}"
@@ -41,7 +45,7 @@ def _of(expr: Expr) -> str:
     return latex_of(expr.xreplace(calls))
 
 
-def as_displayed(equation: Claim | Repair) -> str:
+def as_displayed(equation: AsMeant | Repair) -> str:
     """Return a printed or a corrected equation with its own relation, in LaTeX."""
     return latex_of_equation(equation, equation.relation)
 
@@ -58,7 +62,7 @@ def evidence(finding: Finding) -> str:
     units = [f"its units do not fit: {claim.units}"] if claim.units else []
     if claim.unchecked:
         return "; ".join([*units, finding.judged.why])
-    parts = [*units, f"compared with {claim.against}: {finding.judged.why}"]
+    parts = [*units, f"compared with {claim.expected.against}: {finding.judged.why}"]
     if finding.convention and finding.under:
         parts.append(
             f"with {finding.convention.what}: {finding.under.why}; "
@@ -114,7 +118,11 @@ def unexpected(findings: Iterable[Finding]) -> list[Finding]:
 
 def description(claim: Claim) -> str:
     """Return what the claim says, and its place if its name does not tell it."""
-    return claim.says if claim.name == claim.place else f"{claim.says} ({claim.place})"
+    return (
+        claim.printed.says
+        if claim.name == claim.printed.place
+        else f"{claim.printed.says} ({claim.printed.place})"
+    )
 
 
 def errata(findings: Iterable[Finding]) -> list[Finding]:
@@ -158,14 +166,14 @@ _SENSES = {
 
 def signs(paper: Paper, findings: Iterable[Finding]) -> list[str]:
     """List the places in the paper that give a quantity one sign, the opposite one or neither."""
-    by_label = {finding.claim.label: finding for finding in findings}
+    by_label = {finding.claim.printed.label: finding for finding in findings}
     lines = []
     for quantity, labels in paper.signs.items():
         senses: dict[str, list[str]] = {}
         for label in labels:
             if label in by_label:
                 sense = _SENSES.get(by_label[label].verdict, "unchecked")
-                senses.setdefault(sense, []).append(by_label[label].claim.place)
+                senses.setdefault(sense, []).append(by_label[label].claim.printed.place)
         if senses:
             by_sense = "; ".join(f"{sense} in {', '.join(p)}" for sense, p in senses.items())
             lines.append(f"{quantity}: {by_sense}")
@@ -176,10 +184,10 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
     """Return the findings as a JSON list with one object for each claim."""
     objects = [
         {
-            "label": finding.claim.label,
-            "place": finding.claim.place,
-            "equation": finding.claim.equation or None,
-            "says": finding.claim.says,
+            "label": finding.claim.printed.label,
+            "place": finding.claim.printed.place,
+            "equation": finding.claim.printed.equation or None,
+            "says": finding.claim.printed.says,
             "verdict": str(finding.verdict),
             "expected": finding.as_expected,
             "printed": printed(finding.claim),
@@ -188,7 +196,7 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
             "units": finding.claim.units or None,
             "evidence": evidence(finding),
             "reason": finding.judged.why,
-            "consequence": finding.claim.consequence or None,
+            "consequence": finding.claim.expected.consequence or None,
         }
         for finding in findings
     ]
@@ -214,7 +222,12 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
         lines += ["", "## Not checked", "", *(f"- {line}" for line in open_claims)]
     lines += ["", "## Errata", ""]
     for finding in errata(findings):
-        lines += [f"### {finding.claim.place}: {finding.claim.says}", "", f"{finding.verdict}", ""]
+        lines += [
+            f"### {finding.claim.printed.place}: {finding.claim.printed.says}",
+            "",
+            f"{finding.verdict}",
+            "",
+        ]
         lines += [f"- printed: {_in_markdown(finding.claim)}"]
         if finding.repair:
             lines.append(
@@ -228,9 +241,13 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
 
 
 def _in_markdown(claim: Claim) -> str:
-    if claim.unchecked and not claim.source:
-        return "`" + " ".join(claim.latex.split()) + "`"
-    return f"`{claim.source}`" if claim.source else f"${latex_of_equation(claim, claim.relation)}$"
+    if claim.unchecked and not claim.printed.text:
+        return "`" + " ".join(claim.printed.latex.split()) + "`"
+    return (
+        f"`{claim.printed.text}`"
+        if claim.printed.text
+        else f"${latex_of_equation(claim.meant, claim.meant.relation)}$"
+    )
 
 
 _ESCAPED = {
@@ -265,14 +282,17 @@ def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
     ]
     for finding in findings:
         claim = finding.claim
-        lines.append(rf"{_plain(claim.place)} & {_plain(claim.says)} & {finding.verdict} \\")
+        lines.append(
+            rf"{_plain(claim.printed.place)} & {_plain(claim.printed.says)} & {finding.verdict} \\"
+        )
     lines.append(r"\end{longtable}")
     if sign_lines := signs(paper, findings):
         lines.append(r"\section*{Signs, section by section}")
         lines += [rf"\noindent {_plain(line)}\par" for line in sign_lines]
     lines.append(r"\section*{Errata}")
     for finding in errata(findings):
-        lines += [rf"\subsection*{{{_plain(finding.claim.place)}: {_plain(finding.claim.says)}}}"]
+        where = finding.claim.printed
+        lines += [rf"\subsection*{{{_plain(where.place)}: {_plain(where.says)}}}"]
         lines += [f"{finding.verdict}. Printed:", *_printed_in_latex(finding.claim)]
         if finding.repair:
             lines += ["Corrected:", *_display(finding.repair, finding.repair.relation)]
@@ -284,12 +304,12 @@ def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
 
 
 def _printed_in_latex(claim: Claim) -> list[str]:
-    if claim.source:
-        return [rf"\texttt{{{_plain(claim.source)}}}."]
-    return _display(claim, claim.relation)
+    if claim.printed.text:
+        return [rf"\texttt{{{_plain(claim.printed.text)}}}."]
+    return _display(claim.meant, claim.meant.relation)
 
 
-def _display(equation: Claim | Repair, relation: Relation) -> list[str]:
+def _display(equation: AsMeant | Repair, relation: Relation) -> list[str]:
     return [r"\begin{equation*}", latex_of_equation(equation, relation), r"\end{equation*}"]
 
 
@@ -307,12 +327,12 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
     """Return headings with their lines: what was compared, how, and with which result."""
     claim = finding.claim
     entries = [
-        ("description", [claim.says]),
-        ("place", [claim.place] if claim.place != claim.name else []),
+        ("description", [claim.printed.says]),
+        ("place", [claim.printed.place] if claim.printed.place != claim.name else []),
         ("printed", [printed(claim) or "no equation"]),
-        ("compared with", [claim.against] if claim.against else []),
-        ("steps", list(claim.steps)),
-        ("symbols", [f"{s} = {text_of(claim.meaning[s])}" for s in _held(claim)]),
+        ("compared with", [claim.expected.against] if claim.expected.against else []),
+        ("steps", list(claim.expected.steps)),
+        ("symbols", [f"{s} = {text_of(claim.meant.meaning[s])}" for s in _held(claim)]),
         ("verdict", [str(finding.verdict), *lines_of(finding.judged.why), finding.partly]),
         ("convention", _convention(finding)),
         ("corrected", _correction(finding)),
@@ -323,9 +343,13 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
 
 def _held(claim: Claim) -> list[Symbol]:
     """Return the symbols of a claim's equation that the claims file gives a meaning."""
-    sides = (*claim.sides(claim.left, claim.right), claim.left, claim.right)
+    sides = (
+        *claim.meant.sides(claim.meant.left, claim.meant.right),
+        claim.meant.left,
+        claim.meant.right,
+    )
     held = set().union(*(side.free_symbols for side in sides))
-    return [symbol for symbol in claim.meaning if symbol in held]
+    return [symbol for symbol in claim.meant.meaning if symbol in held]
 
 
 def numbers(finding: Finding) -> list[tuple[str, str, str]]:

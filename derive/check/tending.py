@@ -121,7 +121,7 @@ class Approach:
         """Whether a variable may take a value; a limit at an end of its range has one side."""
         if mpmath.im(where) != 0 or (variable.is_positive and not where > 0):
             return False
-        span = self.claim.ranges.get(variable)
+        span = self.claim.meant.ranges.get(variable)
         at_limit = value.subs(_DISTANCE, 0)
         if span is None or span.powers or at_limit.has(oo, zoo, nan):
             return True
@@ -132,8 +132,8 @@ class Approach:
 
     def _of(self, row: list[tuple[mpf, Value, Value]]) -> tuple[Verdict, str]:
         with mpmath.workdps(_DIGITS):
-            if self.claim.order is not None:
-                return self._by_order(row, self.claim.order)
+            if self.claim.meant.order is not None:
+                return self._by_order(row, self.claim.meant.order)
             if any(right == 0 for _, _, right in row):
                 return Verdict.UNCHECKED, "the right side vanishes on the way to the limit"
             ratios = [left / right for _, left, right in row]

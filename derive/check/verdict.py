@@ -126,7 +126,7 @@ class Finding:
     @property
     def as_expected(self) -> bool:
         """Whether the verdict equals the expected one; without one, whether the claim is true."""
-        wanted = self.claim.expected
+        wanted = self.claim.expected.verdict
         return self.verdict == wanted if wanted else self.judged.good
 
 
@@ -134,7 +134,7 @@ def check(claim: Claim) -> Finding:
     """Return the verdict on one claim; if the work is interrupted, it is `unchecked`."""
     if claim.unchecked:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, claim.unchecked))
-    if claim.defined:
+    if claim.meant.defined:
         why = "the file defines its symbols by this very equation, so nothing is compared"
         return Finding(claim, Verdict.DEFINITION, Judged(Verdict.DEFINITION, why))
     judged, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
@@ -154,10 +154,10 @@ def check(claim: Claim) -> Finding:
 
 def _partly(claim: Claim, look: LookAtClock) -> str:
     """Describe where a false claim is true, if it is true at some points; empty if it is not."""
-    if claim.toward is not None or claim.reached is not None:
+    if claim.meant.toward is not None or claim.meant.reached is not None:
         return ""
-    left, right = claim.sides(claim.left, claim.right)
-    judging = _Judging(claim, left, right, claim.meaning, look)
+    left, right = claim.meant.sides(claim.meant.left, claim.meant.right)
+    judging = _Judging(claim, left, right, claim.meant.meaning, look)
     return where_true(claim, judging.is_true)
 
 
@@ -192,18 +192,22 @@ def _attempted(claim: Claim, work: Callable[[LookAtClock], Result]) -> tuple[Res
 
 def judge_as_printed(claim: Claim, look: LookAtClock = _no_clock) -> Judged:
     """Judge the printed sides with the claim's own meanings; printed constants may be rounded."""
-    judged = judge(claim, claim.left, claim.right, claim.meaning, look)
-    if judged.verdict == Verdict.FAILS and claim.rounded is not None and claim.toward is None:
-        return _to_the_digits(claim, claim.rounded) or judged
+    judged = judge(claim, claim.meant.left, claim.meant.right, claim.meant.meaning, look)
+    if (
+        judged.verdict == Verdict.FAILS
+        and claim.meant.rounded is not None
+        and claim.meant.toward is None
+    ):
+        return _to_the_digits(claim, claim.meant.rounded) or judged
     return judged
 
 
 def _mended(claim: Claim, judged: Judged, look: LookAtClock) -> Finding:
     """Return the finding for a false claim, with a correction and a convention if they exist."""
     repair, tried = repaired(claim, look)
-    for convention in claim.conventions:
-        meaning = {**claim.meaning, **convention.meaning}
-        under = judge(claim, claim.left, claim.right, meaning, look)
+    for convention in claim.meant.conventions:
+        meaning = {**claim.meant.meaning, **convention.meaning}
+        under = judge(claim, claim.meant.left, claim.meant.right, meaning, look)
         if under.good:
             verdict = Verdict.CONVENTION
             return Finding(claim, verdict, judged, convention, under, repair, tried)
@@ -214,10 +218,10 @@ def judge(
     claim: Claim, left: Expr, right: Expr, meaning: Meaning, look: LookAtClock = _no_clock
 ) -> Judged:
     """Judge two sides with given meanings, at all points and, if they agree, symbolically."""
-    left, right = claim.sides(left, right)
+    left, right = claim.meant.sides(left, right)
     judging = _Judging(claim, left, right, meaning, look)
     try:
-        return judging.whole() if claim.toward is None else judging.limit(claim.toward)
+        return judging.whole() if claim.meant.toward is None else judging.limit(claim.meant.toward)
     except Undecided as error:
         return Judged(Verdict.UNCHECKED, str(error), tuple(judging.found))
 
@@ -265,7 +269,7 @@ class _Judging:
                 continue
             if not is_true:
                 return self._fails()
-        if len(self.found) < LEAST and variables(self.claim) and not self.claim.cases:
+        if len(self.found) < LEAST and variables(self.claim) and not self.claim.meant.cases:
             judged = self._judged(Verdict.UNCHECKED, self._too_few())
             alone = self.one_sided if not self.found and self.one_sided == self.unreal else 0
             return replace(judged, one_side_real=alone)
@@ -279,16 +283,16 @@ class _Judging:
                 continue
             if not is_true:
                 return self._fails()
-        if self.claim.is_inequality and self.claim.relation.is_strict:
+        if self.claim.meant.is_inequality and self.claim.meant.relation.is_strict:
             for point, beside in touching(self.claim, self._in_ours()):
                 pair, *others = (self._pair(each) for each in (point, *beside))
                 if all(_gap(pair) < _gap(other) for other in others):
                     why = f"the sides touch or nearly touch: {_example(pair)}"
                     return self._judged(Verdict.UNCHECKED, why)
-        if self.claim.is_inequality and not all(pair.agree for pair in self.found):
+        if self.claim.meant.is_inequality and not all(pair.agree for pair in self.found):
             return self._judged(Verdict.NUMERICAL, f"true {self._where()}")
-        if self.claim.reached is not None:
-            wrong = self._off_the_bound(self.claim.reached)
+        if self.claim.meant.reached is not None:
+            wrong = self._off_the_bound(self.claim.meant.reached)
             if wrong:
                 return self._judged(Verdict.FAILS, wrong)
         return self._proven()
@@ -309,15 +313,15 @@ class _Judging:
             reasons.append(f"one side is not real at {_points(self.unreal)}")
         if self.left_out:
             reasons.append(f"there is no value at {_points(self.left_out)}")
-        if self.claim.conditions:
-            listed = " and ".join(map(str, self.claim.conditions))
+        if self.claim.meant.conditions:
+            listed = " and ".join(map(str, self.claim.meant.conditions))
             reasons.append(f"the points must satisfy {listed}")
         return f"{', '.join(reasons)}: restrict the variables with `low`, `high` and `require`"
 
     def _first_points(self) -> Iterator[Point]:
         """Yield points of moderate size, and more of them if a side was not a real number."""
         yield from points(self.claim)
-        if (self.unreal or self.left_out) and not self.claim.cases:
+        if (self.unreal or self.left_out) and not self.claim.meant.cases:
             for n in range(_MORE_DRAWN):
                 for point in points(self.claim, seed=f"more{n or ''}"):
                     if len(self.found) < LEAST:
@@ -341,11 +345,11 @@ class _Judging:
         return both(left, right, lambda: numbers(meaning, point), point, self.integrals)
 
     def _is_true_at(self, pair: Pair) -> bool:
-        relation = self.claim.relation
-        if self.claim.is_inequality and mpmath.im(pair.left - pair.right) != 0:
+        relation = self.claim.meant.relation
+        if self.claim.meant.is_inequality and mpmath.im(pair.left - pair.right) != 0:
             self.unreal += 1
             return True
-        if not self.claim.is_inequality:
+        if not self.claim.meant.is_inequality:
             if not pair.agree and (mpmath.im(pair.left) != 0 or mpmath.im(pair.right) != 0):
                 self.unreal += 1
                 self.one_sided += (mpmath.im(pair.left) == 0) != (mpmath.im(pair.right) == 0)
@@ -367,7 +371,7 @@ class _Judging:
 
     def _off_the_bound(self, bound: Bound) -> str:
         """Describe where the printed relation is wrong near the bound; empty if it is right."""
-        relation = self.claim.relation
+        relation = self.claim.meant.relation
         for entries, met, word in ((bound.allowed, True, "false"), (bound.beyond, False, "true")):
             meaning = {**self.meaning, **entries}
             for point in islice(points(self.claim), _OFF):
@@ -384,7 +388,7 @@ class _Judging:
     def _proven(self) -> Judged:
         worst = min(min(pair.digits, pair.known) for pair in self.found)
         agree = f"the two sides agree to {min(worst, 2 * DIGITS)} digits {self._where()}"
-        if self.claim.reached is not None:
+        if self.claim.meant.reached is not None:
             agree += f"; the relation is right at {_OFF} points on either side of the bound"
         left, right = self._in_ours()
         try:
@@ -405,7 +409,7 @@ class _Judging:
         if not variables(self.claim):
             return "without any variables"
         ranges = spread([pair.point for pair in self.found])
-        if self.claim.cases:
+        if self.claim.meant.cases:
             return f"in {count} {'case' if count == 1 else 'cases'}"
         left_out = f"; no value at {self.left_out} more points" if self.left_out else ""
         left_out += f"; one side is not real at {self.unreal} more points" if self.unreal else ""
@@ -419,7 +423,7 @@ class _Judging:
 
 
 def _ranges(claim: Claim) -> dict[Symbol, Range]:
-    return {symbol: claim.ranges.get(symbol, SCALE) for symbol in variables(claim)}
+    return {symbol: claim.meant.ranges.get(symbol, SCALE) for symbol in variables(claim)}
 
 
 def _gap(pair: Pair) -> mpf:
@@ -453,10 +457,12 @@ def _example(pair: Pair) -> str:
 
 def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None, Counter[str]]:
     """Return the simplest change that makes the claim true, and the numbers of changes tried."""
-    if claim.is_inequality:
+    if claim.meant.is_inequality:
         return _other_relation(claim, look)
     tried: Counter[str] = Counter()
-    if claim.rounded is not None and (repair := _to_the_digits_with_a_factor(claim, claim.rounded)):
+    if claim.meant.rounded is not None and (
+        repair := _to_the_digits_with_a_factor(claim, claim.meant.rounded)
+    ):
         return repair, tried
     screened = _Screen(claim, look)
     for candidates in _batches(claim):
@@ -468,12 +474,12 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
                 fitting.append((left, right, edit))
         fitting.sort(key=_plainness)
         for left, right, edit in fitting:
-            judged = judge(claim, left, right, claim.meaning, look)
+            judged = judge(claim, left, right, claim.meant.meaning, look)
             if is_carried(claim, left, right, judged):
                 others = {(one, other): e for one, other, e in fitting}
                 del others[left, right]  # changes that lead to the same equation
                 also = tuple(in_words(e.kind, e.what) for e in others.values())
-                relation = claim.relation
+                relation = claim.meant.relation
                 return Repair(left, right, edit.kind, edit.what, judged, relation, also), tried
     return None, tried
 
@@ -494,20 +500,23 @@ def _to_the_digits_with_a_factor(claim: Claim, rounded: Rounded) -> Repair | Non
     digit = 2 * rounded.half
     other = digit * int(mpmath.nint(true * digit.q / digit.p))
     corrections = [
-        (claim.left, factor * claim.right, rounded, f"{factor} on {WHOLE}") for factor in _LOST
+        (claim.meant.left, factor * claim.meant.right, rounded, f"{factor} on {WHOLE}")
+        for factor in _LOST
     ]
     if other > 0:
         larger, new = other / rounded.value, replace(rounded, value=other)
         told = f"{mpf(other.p) / other.q} for {mpf(rounded.value.p) / rounded.value.q}"
         on_left = rounded.power < 0
         sides = (
-            (larger * claim.left, claim.right) if on_left else (claim.left, larger * claim.right)
+            (larger * claim.meant.left, claim.meant.right)
+            if on_left
+            else (claim.meant.left, larger * claim.meant.right)
         )
         corrections.append((*sides, new, told))
     for left, right, number, what in corrections:
-        judged = _to_the_digits(replace(claim, left=left, right=right), number)
+        judged = _to_the_digits(claim.changed(left=left, right=right), number)
         if judged is not None and not _is_same(left, right):
-            return Repair(left, right, "factor", what, judged, claim.relation)
+            return Repair(left, right, "factor", what, judged, claim.meant.relation)
     return None
 
 
@@ -522,10 +531,10 @@ def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
     Equations with such functions must be proven, and so must those with sign functions, which
     vanish at points that may never be drawn.
     """
-    if claim.relation.is_ordered or has_integral(claim) or claim.toward:
+    if claim.meant.relation.is_ordered or has_integral(claim) or claim.meant.toward:
         return judged.good
-    table = dict(claim.meaning)
-    sides = [side.xreplace(table) for side in claim.sides(left, right)]
+    table = dict(claim.meant.meaning)
+    sides = [side.xreplace(table) for side in claim.meant.sides(left, right)]
     if any(map(_may_fade, sides)) or left.has(sign) or right.has(sign):
         return judged.verdict == Verdict.HOLDS
     return judged.good
@@ -546,14 +555,16 @@ _STEEP = 16
 def _other_relation(claim: Claim, look: LookAtClock) -> tuple[Repair | None, Counter[str]]:
     """Correct an inequality by an equation or by the opposite inequality, if one is true."""
     tried: Counter[str] = Counter()
-    relations = (Relation.EQUAL, claim.relation.turned)
-    for relation in relations if claim.left != claim.right else ():
+    relations = (Relation.EQUAL, claim.meant.relation.turned)
+    for relation in relations if claim.meant.left != claim.meant.right else ():
         tried["relation"] += 1
-        other = replace(claim, relation=relation)
-        judged = judge(other, claim.left, claim.right, claim.meaning, look)
-        if is_carried(other, claim.left, claim.right, judged):
-            what = f"{relation} for {claim.relation}"
-            return Repair(claim.left, claim.right, "relation", what, judged, relation), tried
+        other = claim.changed(relation=relation)
+        judged = judge(other, claim.meant.left, claim.meant.right, claim.meant.meaning, look)
+        if is_carried(other, claim.meant.left, claim.meant.right, judged):
+            what = f"{relation} for {claim.meant.relation}"
+            return Repair(
+                claim.meant.left, claim.meant.right, "relation", what, judged, relation
+            ), tried
     return None, tried
 
 
@@ -573,7 +584,7 @@ def _batches(claim: Claim) -> Iterator[Iterable[Candidate]]:
     sufficient, pairs of changes are tried, of which the first is a sign or a swap.  If each trial
     is slow, single changes are tried kind by kind, beginning with those of a whole side.
     """
-    if has_integral(claim) or claim.toward is not None:
+    if has_integral(claim) or claim.meant.toward is not None:
         single = list(_single(claim))
         whole = [c for c in single if c[2].what.endswith(WHOLE)]
         yield whole
@@ -599,58 +610,60 @@ def swaps_on_right(claim: Claim) -> tuple[Symbol, ...]:
 
     If a = c, the equations a = a and a = (a + c)/2 are true, but correct nothing.
     """
-    if claim.right.has(claim.left):
-        return claim.swaps
-    return tuple(name for name in claim.swaps if name != claim.left)
+    if claim.meant.right.has(claim.meant.left):
+        return claim.meant.swaps
+    return tuple(name for name in claim.meant.swaps if name != claim.meant.left)
 
 
 def _changed(claim: Claim) -> Iterator[Candidate]:
-    units = {} if claim.units else claim.unit_of
-    for edit in edits(claim.right, swaps_on_right(claim), units):
-        yield claim.left, edit.expr, edit
-    if not isinstance(claim.left, Symbol):
-        for edit in edits(claim.left, claim.swaps, units):
-            yield edit.expr, claim.right, edit
+    units = {} if claim.units else claim.meant.unit_of
+    for edit in edits(claim.meant.right, swaps_on_right(claim), units):
+        yield claim.meant.left, edit.expr, edit
+    if not isinstance(claim.meant.left, Symbol):
+        for edit in edits(claim.meant.left, claim.meant.swaps, units):
+            yield edit.expr, claim.meant.right, edit
 
 
 def _regrouped(claim: Claim) -> Iterator[Candidate]:
     """Yield the printed text with another exponent on one bracket or root."""
-    if claim.reading is None or claim.through is not None:
+    if claim.meant.reading is None or claim.meant.through is not None:
         return
-    for text, what in regrouped(claim.source):
-        sides = claim.reading(text)
+    for text, what in regrouped(claim.printed.text):
+        sides = claim.meant.reading(text)
         if sides is not None:
             yield *sides, Edit("exponent", what, sides[1])
 
 
 def _scaled(claim: Claim) -> Iterator[Candidate]:
     """Yield the equation with the constant by which its sides differ, if it is simple."""
-    if claim.through is not None or not variables(claim):
+    if claim.meant.through is not None or not variables(claim):
         return
     factor: Expr | None
-    if claim.toward is not None:
-        table = dict(claim.meaning)
-        sides = [side.xreplace(table) for side in (claim.left, claim.right)]
-        factor = simple(Approach(claim, sides, claim.toward).ratio(), _OF_LIMITS)
+    if claim.meant.toward is not None:
+        table = dict(claim.meant.meaning)
+        sides = [side.xreplace(table) for side in (claim.meant.left, claim.meant.right)]
+        factor = simple(Approach(claim, sides, claim.meant.toward).ratio(), _OF_LIMITS)
     else:
         ratio = quotient(claim)
         factor = ratio.simple_factor if ratio is not None else None
     if factor is not None:
-        edit = Edit("factor", f"{factor} on {WHOLE}", factor * claim.right)
-        yield claim.left, edit.expr, edit
+        edit = Edit("factor", f"{factor} on {WHOLE}", factor * claim.meant.right)
+        yield claim.meant.left, edit.expr, edit
 
 
 def _double(claim: Claim) -> Iterator[Candidate]:
     """Yield pairs of changes of the right side, of which the first is a sign or a swap."""
-    units = {} if claim.units else claim.unit_of
+    units = {} if claim.units else claim.meant.unit_of
     firsts = [
-        e for e in plain_edits(claim.right, swaps_on_right(claim), units) if e.kind in _FIRST_KINDS
+        e
+        for e in plain_edits(claim.meant.right, swaps_on_right(claim), units)
+        if e.kind in _FIRST_KINDS
     ]
     for first in firsts[:_FIRSTS]:
         for second in plain_edits(first.expr, swaps_on_right(claim), units):
             what = f"{first.what}; {second.what}"
             edit = Edit(f"{first.kind} and {second.kind}", what, second.expr)
-            yield claim.left, second.expr, edit
+            yield claim.meant.left, second.expr, edit
 
 
 _OF_LIMITS = 6
@@ -662,10 +675,12 @@ _FIRSTS = 12
 
 def _screening(claim: Claim) -> list[Point]:
     """Return a few points, if possible such that both printed sides are real numbers there."""
-    if claim.cases or claim.toward is not None:
+    if claim.meant.cases or claim.meant.toward is not None:
         return list(points(claim, _SCREENED, "screen"))
-    table = dict(claim.meaning)
-    sides = [side.xreplace(table) for side in claim.sides(claim.left, claim.right)]
+    table = dict(claim.meant.meaning)
+    sides = [
+        side.xreplace(table) for side in claim.meant.sides(claim.meant.left, claim.meant.right)
+    ]
     drawn = list(points(claim, _DRAWN, "screen"))
     real = list(islice((p for p in drawn if _are_real(sides, p)), _SCREENED))
     return real if len(real) == _SCREENED else drawn[:_SCREENED]
@@ -689,16 +704,16 @@ class _Screen:
 
     def fits(self, left: Expr, right: Expr) -> bool:
         """Whether a candidate agrees at the points, or near the limit of a claim that has one."""
-        left, right = self.claim.sides(left, right)
-        if self.claim.toward is not None:
-            table = dict(self.claim.meaning)
+        left, right = self.claim.meant.sides(left, right)
+        if self.claim.meant.toward is not None:
+            table = dict(self.claim.meant.meaning)
             sides = [side.xreplace(table) for side in (left, right)]
             try:
-                return Approach(self.claim, sides, self.claim.toward).is_true(self.look)
+                return Approach(self.claim, sides, self.claim.meant.toward).is_true(self.look)
             except Undecided:
                 return False
         if left.has(Integral) or right.has(Integral):
-            table = dict(self.claim.meaning)
+            table = dict(self.claim.meant.meaning)
             left, right = left.xreplace(table), right.xreplace(table)
         try:
             return all(self._agrees(left, right, n) for n in range(len(self.points)))
@@ -716,7 +731,7 @@ class _Screen:
     def _numbers(self, n: int) -> Mapping[Symbol, Any]:
         key = (n, mpmath.mp.dps)
         if key not in self.known:
-            self.known[key] = numbers(self.claim.meaning, self.points[n])
+            self.known[key] = numbers(self.claim.meant.meaning, self.points[n])
         return self.known[key]
 
 

@@ -136,7 +136,7 @@ def checked(findings: "Sequence[Finding]") -> Group:
     for finding in findings:
         verdict = _verdict_of(finding)
         claim = finding.claim
-        table.add_row(Text(claim.name, style="cyan"), verdict, claim.says)
+        table.add_row(Text(claim.name, style="cyan"), verdict, claim.printed.says)
     parts: list[RenderableType] = [table]
     for finding, remark in report.remarks(findings):
         line = Text.assemble((finding.claim.name, "cyan"), ": ", _verdict_of(finding), ": ")

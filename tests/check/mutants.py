@@ -1,7 +1,7 @@
 """True claims broken in many ways: a sign, a factor, an exponent, a swapped symbol, a lost term."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
 
 from sympy import Expr, count_ops, pi
@@ -28,7 +28,9 @@ class Mutant:
     @property
     def judged(self) -> Judged:
         """What the checker says of it; none of the claim's conventions is tried."""
-        return judge(self.claim, self.claim.left, self.claim.right, self.claim.meaning)
+        return judge(
+            self.claim, self.claim.meant.left, self.claim.meant.right, self.claim.meant.meaning
+        )
 
 
 def mutants(claim: Claim) -> Iterator[Mutant]:
@@ -43,15 +45,15 @@ def _chosen(claim: Claim, wanted: Mapping[str, int]) -> Iterator[Mutant]:
 
 
 def _of_kind(claim: Claim, kind: str) -> Iterator[Mutant]:
-    for edit in _wanted(claim.right, claim, kind):
-        yield Mutant(replace(claim, right=edit.expr), kind, edit.what)
-    if count_ops(claim.left) > 0 and claim.through is None:
-        for edit in _wanted(claim.left, claim, kind):
-            yield Mutant(replace(claim, left=edit.expr), kind, edit.what)
+    for edit in _wanted(claim.meant.right, claim, kind):
+        yield Mutant(claim.changed(right=edit.expr), kind, edit.what)
+    if count_ops(claim.meant.left) > 0 and claim.meant.through is None:
+        for edit in _wanted(claim.meant.left, claim, kind):
+            yield Mutant(claim.changed(left=edit.expr), kind, edit.what)
 
 
 def _wanted(expr: Expr, claim: Claim, kind: str) -> Iterator[Edit]:
-    swaps = claim.swaps if expr != claim.right else swaps_on_right(claim)
+    swaps = claim.meant.swaps if expr != claim.meant.right else swaps_on_right(claim)
     for edit in edits(expr, swaps):
         if edit.kind != kind:
             continue

@@ -6,7 +6,6 @@ The verdicts, the corrections and the signs of the sections stand in notebook 08
 
 import tomllib
 from collections import Counter
-from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -82,7 +81,7 @@ def test_an_equation_is_printed_as_its_source_has_it() -> None:
 def test_the_direction_of_a_bound_is_judged(side: str) -> None:
     claim = section("1_introduction")[f"fullstickinequality/{side}"]
     assert check(claim).verdict == Verdict.HOLDS
-    assert check(replace(claim, relation=claim.relation.turned)).verdict == Verdict.FAILS
+    assert check(claim.changed(relation=claim.meant.relation.turned)).verdict == Verdict.FAILS
 
 
 @pytest.mark.enough("3_asymptotics")
@@ -91,15 +90,15 @@ def test_broken_claims_are_found(name: str) -> None:
     """At least five ways a claim; survivors are named with the reason, and are no errors."""
     claims, surviving, few = section(name).claims, {}, {}
     for claim in claims:
-        true = claim.expected in (Verdict.HOLDS, Verdict.NUMERICAL)
-        if not true or claim.is_inequality:
+        true = claim.expected.verdict in (Verdict.HOLDS, Verdict.NUMERICAL)
+        if not true or claim.meant.is_inequality:
             continue  # an inequality that stays true is no error
         broken = list(mutants(claim))
         if len(broken) < FEWEST:
-            few[claim.label] = len(broken)
+            few[claim.printed.label] = len(broken)
         for mutant in broken:
             if survives(mutant):
-                surviving[claim.label, mutant.what] = mutant
+                surviving[claim.printed.label, mutant.what] = mutant
     assert set(surviving) <= SAME.keys(), surviving.keys() - SAME.keys()
     known = {"section 4.1/no moment/alpha", "section 4.1/no moment/gamma"}  # 0 and 1
-    assert set(few) == known & {claim.label for claim in claims}
+    assert set(few) == known & {claim.printed.label for claim in claims}

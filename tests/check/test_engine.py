@@ -24,6 +24,7 @@ from sympy import (
 from derive.check.claim import (
     SCALE,
     SIGNED,
+    AsMeant,
     Bound,
     Claim,
     Convention,
@@ -36,6 +37,7 @@ from derive.check.draw import points, variables
 from derive.check.numbers import both
 from derive.check.repair import edits
 from derive.check.report import evidence
+from derive.check.schema import AsPrinted
 from derive.check.verdict import check
 from derive.check.zero import vanishes
 from derive.command.limit import LimitReached
@@ -47,8 +49,9 @@ s = Symbol("s", real=True)
 
 
 def claim(left: object, right: object, **more: object) -> Claim:
-    made = {"label": "it", "place": "here", "says": "so", **more}
-    return Claim(left=left, right=right, **made)  # type: ignore[arg-type]
+    seconds = more.pop("seconds", None)
+    meant = AsMeant(left=left, right=right, **more)  # type: ignore[arg-type]
+    return Claim(AsPrinted("it", "here", "so"), meant, seconds=seconds)  # type: ignore[arg-type]
 
 
 # ------------------------------------------------------------------ verdicts

@@ -222,7 +222,7 @@ def test_what_is_true_to_working_digits_is_no_correction(tmp_path: Path) -> None
     finding = judged(tmp_path, "w + (1 + tanh(10**6*(w - 1.6)))/2 = w", "seconds = 1\n" + HEAD)
     assert finding.verdict == Verdict.NUMERICAL
     claim = finding.claim
-    assert not is_carried(claim, claim.left, claim.right, finding.judged)
+    assert not is_carried(claim, claim.meant.left, claim.meant.right, finding.judged)
 
 
 # ------------------------------------------------------------------ limits and errors

@@ -7,7 +7,6 @@ import pytest
 from sympy import Symbol
 
 from derive.check.draft import Draft, draft
-from derive.check.lines import heads, with_lines
 from derive.check.proposals import proposal
 from derive.check.userfile import read_claims
 from derive.check.verdict import check
@@ -352,13 +351,6 @@ def test_proposals(name: str, text: str, formula: str, unit: str) -> None:
 def test_ends_that_no_integral_may_have(text: str, why: str) -> None:
     with pytest.raises(BadFormula, match=why):
         equation(text, Names("", {}, {}))
-
-
-def test_a_line_of_latex_that_looks_like_a_table_does_not_hinder_the_acceptance() -> None:
-    text = "[[claims]]\nlabel = 'a'\nlatex = '''\na = b\n[[claims]]\n [c]'''\naccepted = false\n"
-    assert heads(text, 1) == [1]
-    new = with_lines(text, 1, {1: "a = b"})
-    assert new == f'{text.replace("false", "true")}understood = "a = b"\n'
 
 
 def test_the_condition_of_a_display_is_not_forgotten(tmp_path: Path) -> None:

@@ -1,0 +1,166 @@
+"""Read what a claims file declares for all claims: its body, variables, symbols and spellings.
+
+In:   the decoded file.
+Out:  Declarations: the ranges of variables, and the context of each claim.
+"""
+
+from collections.abc import Mapping
+from contextlib import suppress
+from types import MappingProxyType
+from typing import Any
+
+from sympy import Expr, Symbol
+
+from derive.check.bodies import ProvenBody
+from derive.check.claim import SCALE, Range
+from derive.check.context import PLACES, Context, Meant
+from derive.check.mistakes import Collected, TimeLimit
+from derive.check.own_body import body_of
+from derive.check.schema import (
+    A_RANGE,
+    NO_RANGE,
+    ClaimsFile,
+    DefinedSymbol,
+    Place,
+    Variable,
+    record,
+)
+from derive.command.errors import BadUnit, UserError
+from derive.reading.formula import usable
+from derive.reading.units import Dimension, parse_unit
+from derive.symbols import E_star, f
+
+_PREDEFINED = {"E_star": (E_star, "Pa"), "f": (f, "-")}
+
+
+class Declarations:
+    """The declarations of a file.
+
+    place      the file
+    limit      the time limit for reading one formula
+    body       the file's body, or None
+    declared   the variables in [variables] by name
+    ranges     the ranges of variables that have one
+    units      the units of variables and symbols, as far as the file declares them
+    symbols    the formulas in [symbols] by name, without those that are variables
+    spellings  the entries of [latex]
+    """
+
+    def __init__(self, file: ClaimsFile, place: Place, errors: Collected) -> None:
+        self.place, self.limit = place, TimeLimit(file.seconds)
+        self.body = body_of(file.body, place)  # without it, all else seems wrong
+        self.declared, self.ranges = dict[str, Symbol](), dict[Symbol, Range]()
+        self.units, self.symbols = dict[Symbol, Dimension](), dict[str, str]()
+        self.spellings = file.latex
+        self._contexts = dict[tuple[object, ...], Context]()
+        for name, said in file.variables.items():
+            with errors.noted():
+                self._declare(name, said, errors)
+        for name, said in file.symbols.items():
+            with errors.noted():
+                self._read_symbol(name, said, errors)
+        with errors.noted():
+            for spelling, name in file.latex.items():
+                why = f"[latex] {spelling!r} = {name!r} is not a name"
+                is_name = isinstance(name, str) and usable(name)
+                place.demand(is_name, why, "write a name of [symbols] or [variables]")
+        for body in (None, *(each.get("body") for each in file.claims if isinstance(each, dict))):
+            with suppress(UserError):  # which makes the claim unchecked
+                self.context(place, body)
+        wrong, *others = [context.meant.wrong for context in self._contexts.values()]
+        for name in self.symbols:
+            if name in wrong and all(name in other for other in others):
+                errors.errors.append(wrong[name])
+
+    def _declare(self, name: str, said: object, errors: Collected) -> None:
+        """Add a variable with its range; variables of the theory keep their own symbols."""
+        place = self.place.at("variables", name, f"variable {name!r}")
+        demand_name(name, place)
+        given = said if isinstance(said, dict) else {}
+        entry, span = record(Variable, given, place, errors.noted), SCALE
+        if not (isinstance(said, str) or (given and entry.low is entry.high is None)):
+            if entry.low is None or entry.high is None or entry.low >= entry.high:
+                raise place.bad(NO_RANGE, A_RANGE.format())
+            span = Range(entry.low, entry.high)
+        is_positive = span is SCALE or span.low >= 0
+        known = Symbol(name, positive=True) if is_positive else Symbol(name, real=True)
+        symbol = self._variables(self.body).get(name, known)
+        self.declared[name] = symbol
+        self._add_unit(symbol, entry.unit, place)
+        if span is not SCALE or name in PLACES:
+            self.ranges[symbol] = span
+
+    def _read_symbol(self, name: str, said: object, errors: Collected) -> None:
+        """Add the formula of a symbol, unless it is the entry of a variable."""
+        place = self.place.at("symbols", name)
+        formula = formula_of(name, said, place)
+        parameters = self.body.parameters if self.body else {}
+        predefined = {n: symbol for n, (symbol, _) in _PREDEFINED.items() if self.body}
+        taken = {**parameters, **self.declared, **predefined}
+        if isinstance(said, dict):
+            inside = place.inside(f"the symbol {name!r}")
+            entry = record(DefinedSymbol, said, inside, errors.noted)
+            symbol = taken.get(name, Symbol(name))
+            if symbol not in self.units and symbol not in parameters.values():
+                with errors.noted():
+                    self._add_unit(symbol, entry.unit, inside)
+        if name not in taken or (name in PLACES and formula):
+            self.symbols[name] = formula
+        elif formula:
+            what = "a variable" if name in self.declared else "a parameter of the body"
+            why = f"the symbol {name!r} is already {what}"
+            raise place.bad(why, "remove the symbol, or rename one of them")
+
+    def _add_unit(self, symbol: Symbol, unit: Any, place: Place) -> None:
+        if unit is None:
+            return
+        try:
+            self.units[symbol] = parse_unit(unit)
+        except BadUnit as error:
+            raise place.bad(error.message, "write a unit such as N/m") from error
+
+    def context(
+        self, place: Place, given: object = None, own: Mapping[str, str] = MappingProxyType({})
+    ) -> Context:
+        """Return the context of a claim with its own body, if it gives one, and own symbols."""
+        body = self.body if given is None else body_of(given, place)
+        key = (id(body), *sorted(own.items()))
+        if key not in self._contexts:
+            variables, units, symbols = self._variables(body), self._units(body), self.symbols
+            known = self.context(place, given).meant.without(own) if own else Meant()
+            made = Context(
+                body, variables, units, {**symbols, **own}, self.place, self.limit, known
+            )
+            for name in made.symbols:
+                made.define(name)
+            self._contexts[key] = made
+        return self._contexts[key]
+
+    def _variables(self, body: ProvenBody | None) -> dict[str, Expr]:
+        """Return all variables; parameters of the file's body are always among them."""
+        predefined = {name: symbol for name, (symbol, _) in _PREDEFINED.items()}
+        inherited, own = (each.parameters if each else {} for each in (self.body, body))
+        return {**PLACES, **predefined, **inherited, **self.declared, **own}
+
+    def _units(self, body: ProvenBody | None) -> dict[Symbol, Dimension]:
+        """Return the known units; positions are in metres if there is a body."""
+        places = {place: parse_unit("m") for place in PLACES.values() if body}
+        sheets = [each.sheet for each in (self.body, body) if each]
+        found = {s: unit for sheet in sheets for s, unit in sheet.geometry.dimensions.items()}
+        predefined = {symbol: parse_unit(unit) for symbol, unit in _PREDEFINED.values()}
+        return {**places, **found, **predefined, **self.units}
+
+
+def demand_name(name: str, place: Place) -> None:
+    """Refuse a name that a formula cannot hold."""
+    why = f"{name!r} is reserved or is not a valid name"
+    place.demand(usable(name), why, "use another name of letters, digits and _")
+
+
+def formula_of(name: str, said: object, place: Place) -> str:
+    """Return the formula of a symbol as text, which is empty if it is not defined yet."""
+    demand_name(name, place)
+    formula = said.get("is", "") if isinstance(said, dict) else said
+    why = f"the value of the symbol {name!r} is {formula!r}, which is not a string"
+    place.demand(type(formula) in (str, int, float), why, f'write {name} = "a formula"')
+    return str(formula).strip()
