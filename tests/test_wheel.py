@@ -12,7 +12,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 
-OPTIONAL = ("jinja2", "latex2mathml", "matplotlib", "tqdm", "dask", "ipywidgets", "nbformat")
+OPTIONAL = ("latex2mathml", "matplotlib", "tqdm", "dask", "ipywidgets", "nbformat")
 
 BLOCKING = f"""
 import sys

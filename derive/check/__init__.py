@@ -3,17 +3,18 @@
     module         input                     output
     -------------  ------------------------  --------------------------------------------------
     claim                                    the data class of a printed equation
-    domain         expression, ranges        whether it is shown to be continuous
     draw           claim                     points: random, over decades, at kinks and at spikes
     numbers        two sides, point          both values to 30 digits that are certain
     zero           expression                whether exact steps show that it vanishes identically
-    repair         printed equation          similar equations that may have been intended
+    repair         one side of an equation   similar expressions that may have been intended
     bodies         geometry                  its formulas, each proven
     tending        claim about a limit       whether the sides approach each other, and how fast
     diagnosis      false equation            by what its sides differ, and where it is true
+    judge          two sides                 whether they agree, with the evidence for it
+    correction     false claim               the simplest change that makes it true
     verdict        claim                     Finding: verdict, evidence, corrected equation
-    report         findings                  rows, JSON, Markdown, LaTeX, errata
-    page           findings                  one page of HTML
+    report         findings                  evidence, errata and remarks in words; JSON
+    documents      findings                  Markdown, LaTeX and HTML, by templates
     draft          LaTeX file                a claims file for the user to complete
     accept         claims file               the same file with the readings that a user accepted
     context        body, symbols, equation   the equation with its calls replaced by formulas

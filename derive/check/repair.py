@@ -1,30 +1,12 @@
 """Generate equations that differ from a printed one by a likely misprint.
 
-    kind       changes that are tried
-    --------   ------------------------------------------------------------------
-    sign       opposite sign of the whole expression, of each term and of each function
-    factor     2, 3, 4, 8, sqrt 2, sqrt pi, pi and 2 pi, or their reciprocals, on the whole
-               expression; 2, pi and 4, or their reciprocals, on a term, and their roots on a term
-               with a root; 2, or 1/2, in a function; a number larger or smaller by one
-    swap       one name replaced by another, everywhere or in one place; two names exchanged;
-               a name replaced by its reciprocal, or by the mean of it and another name
-    function   sine, cosine and tangent, their inverses, the hyperbolic functions and the
-               complete elliptic integrals replaced by each other
-    exponent   of every power: opposite sign, reciprocal, multiplied by 2, 1/2, 3/2 or 2/3, plus or
-               minus one; 2, 1/2 or -1 on a symbol, everywhere or in one place; a square root of a
-               sum or of the whole expression; its reciprocal; two factors exchanged, of which one
-               is a divisor
-    term       one term removed, or one symbol added
-    modulus    one modulus removed, or one added around the whole expression
-
-SymPy distributes a power over the factors in a bracket, so that `regrouped` changes the exponents
-of brackets and roots in the printed text.  The changes do not depend on the paper.
+Each rule in the table at the end is a kind of change, the places where it is made, and what is
+written there instead.  The rules do not depend on the paper.
 """
 
-import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain, permutations
+from itertools import chain
 
 from sympy import (
     Abs,
@@ -32,7 +14,6 @@ from sympy import (
     Expr,
     Integral,
     Mul,
-    Number,
     Pow,
     Rational,
     S,
@@ -48,262 +29,256 @@ from derive.reading.words import FUNCTIONS
 WHOLE = "the whole expression"
 """The end of `Edit.what` for a change of a whole side."""
 
-KINDS = ("sign", "factor", "swap", "function", "exponent", "term", "modulus")
+KINDS = ("sign", "factor", "swap", "function", "exponent", "term", "modulus", "relation")
 """The kinds of changes, in the order of preference."""
 
 _FACTORS = tuple(
     f for n in (S(2), pi, S(4), S(3), 2 * pi, S(8), sqrt(2), sqrt(pi)) for f in (n, 1 / n)
 )
-_OF_A_TERM = _FACTORS[:6]
-_OF_A_ROOT = _FACTORS[12:]
+_OF_A_TERM, _OF_A_ROOT = _FACTORS[:6], _FACTORS[12:]
 _LIKE = {each.of_sympy: each.like for each in FUNCTIONS.values() if each.like}
 """The family of each function; those of one family may have been confused with each other."""
 
-Units = Mapping[Symbol, str]
-"""The units of names, where they are known; names of different units are not swapped."""
-
-
-def in_words(kind: str, what: str) -> str:
-    """Return a change, or a pair of changes, in words.
-
-    >>> in_words("sign and swap", "of b; c for a")
-    'sign of b and swap c for a'
-    """
-    kinds = kind.split(" and ")
-    return " and ".join(map(" ".join, zip(kinds, what.split("; ", len(kinds) - 1), strict=True)))
+Swaps = Mapping[Symbol, Sequence[Symbol]]
+"""For each name that may have been confused with others, these others."""
 
 
 @dataclass(frozen=True)
 class Edit:
-    """One change of an expression, or two: their kinds joined by "and", and `what` by ";"."""
+    """One change of an expression: its kind, what is changed, and the result."""
 
     kind: str
     what: str
     expr: Expr
 
 
-def edits(expr: Expr, swaps: Iterable[Symbol] = (), units: Units | None = None) -> Iterator[Edit]:
-    """Yield all changes of one side; each differs from `expr` and from all others."""
-    return _distinct(expr, _all(expr, tuple(swaps), units or {}))
+@dataclass(frozen=True)
+class Place:
+    """A part of an expression that is changed.
+
+    within  the only sum, product, power or integral in which it is changed; None for all
+    name    the part in words
+    """
+
+    part: Expr
+    within: Expr | None = None
+    name: str = ""
+
+    def __str__(self) -> str:
+        return self.name or str(self.part)
+
+    def put(self, expr: Expr, other: Expr) -> Expr:
+        """Return `expr` with the other part."""
+        if self.within is None:
+            return expr.xreplace({self.part: other})
+        args = (other if arg == self.part else arg for arg in self.within.args)
+        return expr.xreplace({self.within: self.within.func(*args)})
 
 
-def plain_edits(
-    expr: Expr, swaps: Iterable[Symbol] = (), units: Units | None = None
-) -> Iterator[Edit]:
-    """Yield the changes that are tried in pairs: signs, swaps and factors on a whole side."""
-    groups = (_signs(expr), _swapped(expr, tuple(swaps), units or {}), _whole_factors(expr))
-    return _distinct(expr, chain(*groups))
+_Places = Callable[[Expr], Iterable[Place]]
+_Changed = Iterator[tuple[str, Expr]]
+"""What is changed, in words, and what is written in that place."""
 
 
-def regrouped(text: str) -> Iterator[tuple[str, str]]:
-    """Yield the printed text with another exponent on one bracket or root, and the change."""
-    for start, end in _brackets(text):
-        inside = text[start:end]
-        name = re.search(r"[A-Za-z_]\w*$", text[:start])
-        if (name and name[0] != "sqrt") or text[:start].endswith("**"):
-            continue  # the arguments of another function, or an exponent
-        before = text[: name.start() if name else start]
-        power = re.match(r"\*\*(\d+|\((-?\d+(?:/\d+)?)\))", text[end:])
-        after = text[end + (power.end() if power else 0) :]
-        own = (power[2] or power[1]) if power else "1/2" if name else "1"
-        for other in _EXPONENTS:
-            if other != own and not (name and power):
-                yield f"{before}({inside}**({other})){after}", f"{other} on {inside}"
+def swappable(names: Sequence[Symbol], units: Mapping[Symbol, str]) -> Swaps:
+    """Return for each name the others, except those that are known to have another unit."""
+    return {
+        one: [n for n in names if n != one and len({units[m] for m in {one, n} & units.keys()}) < 2]
+        for one in names
+    }
 
 
-_EXPONENTS = ("1", "-1", "2", "-2", "1/2", "-1/2", "1/3", "2/3", "3/2", "3")
+def edits(expr: Expr, swaps: Swaps | None = None, plain: bool = False) -> Iterator[Edit]:
+    """Yield all changes of one side; each differs from `expr` and from all others.
 
-
-def _brackets(text: str) -> Iterator[tuple[int, int]]:
-    """Yield the positions of all brackets in a text."""
-    open_ = list[int]()
-    for position, character in enumerate(text):
-        if character == "(":
-            open_.append(position)
-        elif character == ")" and open_:
-            yield open_.pop(), position + 1
-
-
-def _distinct(expr: Expr, candidates: Iterable[Edit]) -> Iterator[Edit]:
+    plain: whether only signs, names and factors of a whole side are changed
+    """
     seen = {expr}
-    for edit in candidates:
-        if edit.expr not in seen and not edit.expr.has(S.NaN, S.ComplexInfinity):
-            seen.add(edit.expr)
-            yield edit
+    for kind, places, changes in _RULES[: _PLAIN if plain else None]:
+        for place in places(expr):
+            for what, other in changes(place, swaps or {}):
+                changed = place.put(expr, other)
+                if changed not in seen and not changed.has(S.NaN, S.ComplexInfinity):
+                    seen.add(changed)
+                    yield Edit(kind, what, changed)
 
 
-def _all(expr: Expr, swaps: tuple[Symbol, ...], units: Units) -> Iterator[Edit]:
-    yield from _signs(expr)
-    yield from _whole_factors(expr)
-    yield from _factors(expr)
-    yield from _swapped(expr, swaps, units)
-    yield from _other_functions(expr)
-    yield from _exponents(expr)
-    yield from _in_one_factor(expr)
-    yield from _upside_down(expr)
-    yield from _lost_roots(expr)
-    yield from _terms(expr, swaps)
-    yield from _moduli(expr)
+# ------------------------------------------------------------------ places
 
 
-def _places(expr: Expr, kind: type) -> list[Expr]:
-    """Return the parts of one type, in an order that is the same in every run."""
-    return sorted(expr.atoms(kind), key=lambda part: (len(str(part)), str(part)))
+def _whole(expr: Expr) -> list[Place]:
+    return [Place(expr, name=WHOLE)]
 
 
-def _put(expr: Expr, part: Expr, other: Expr) -> Expr:
-    return expr.xreplace({part: other})
+def _names(expr: Expr) -> list[Place]:
+    return [Place(symbol) for symbol in sorted(expr.free_symbols, key=str)]
 
 
-def _signs(expr: Expr) -> Iterator[Edit]:
-    yield Edit("sign", f"of {WHOLE}", -expr)
-    for total in _places(expr, Add):
-        for term in total.args:
-            yield Edit("sign", f"of {term}", _put(expr, total, total - 2 * term))
-    for call in _functions(expr):
-        yield Edit("sign", f"of {call}", _put(expr, call, -call))
+def _calls(expr: Expr) -> list[Place]:
+    every = {n for n in preorder_traversal(expr) if isinstance(n, Expr)}
+    return [Place(n) for n in sorted(every, key=str) if n.is_Function or isinstance(n, Integral)]
 
 
-def _functions(expr: Expr) -> list[Expr]:
-    every = (n for n in preorder_traversal(expr) if isinstance(n, Expr))
-    return sorted({n for n in every if n.is_Function or isinstance(n, Integral)}, key=str)
+def _all(kind: type) -> _Places:
+    """Return the rule for the parts of one type, in an order that is the same in every run."""
+    return lambda expr: [
+        Place(part) for part in sorted(expr.atoms(kind), key=lambda p: (len(str(p)), str(p)))
+    ]
 
 
-def _whole_factors(expr: Expr) -> Iterator[Edit]:
-    for factor in (*_FACTORS, *_neighbours(expr)):
-        yield Edit("factor", f"{factor} on {WHOLE}", factor * expr)
+def _inside(*kinds: type, of: type = Expr) -> _Places:
+    """Return the rule for the arguments of one type in all parts of some types."""
+    return lambda expr: [
+        Place(arg, place.part)
+        for place in chain.from_iterable(_all(kind)(expr) for kind in kinds)
+        for arg in place.part.args
+        if isinstance(arg, of)
+    ]
 
 
-def _neighbours(term: Expr) -> list[Expr]:
-    """Return the factors by which the number of a term becomes larger or smaller by one."""
-    number = term.as_coeff_Mul()[0]
-    if not number.is_Rational or number == 0:
-        return []
-    over, under = number.p, number.q
-    changed = [Rational(n, under) for n in (over + 1, over - 1)]
-    changed += [Rational(over, n) for n in (under + 1, under - 1) if n]
-    return [each / number for each in changed if each != 0]
+def _brackets(expr: Expr) -> list[Place]:
+    """Return the products, except those that are arguments of functions."""
+    arguments = {arg for call in _calls(expr) for arg in call.part.args}
+    return [place for place in _all(Mul)(expr) if place.part not in arguments]
 
 
-def _factors(expr: Expr) -> Iterator[Edit]:
-    for total in _places(expr, Add):
-        for term in total.args:
-            has_root = any(n.exp.is_Rational and not n.exp.is_Integer for n in term.atoms(Pow))
-            roots = _OF_A_ROOT if has_root else ()
-            for factor in (*_OF_A_TERM, *roots, *_neighbours(term)):
-                scaled = Add(*(factor * n if n == term else n for n in total.args))
-                yield Edit("factor", f"{factor} on {term}", _put(expr, total, scaled))
-    for call in _functions(expr):
-        if len(call.args) == 1 and not isinstance(call, Abs | sign):
-            for factor in (S(2), S.Half):
-                changed = _put(expr, call, call.func(factor * call.args[0]))
-                yield Edit("factor", f"{factor} on the argument of {call}", changed)
+def _any(*rules: _Places) -> _Places:
+    return lambda expr: chain.from_iterable(rule(expr) for rule in rules)
 
 
-def _other_functions(expr: Expr) -> Iterator[Edit]:
-    for call in _functions(expr):
-        for other, family in _LIKE.items():
-            if other != call.func and family == _LIKE.get(call.func):
-                changed = _put(expr, call, other(*call.args))
-                yield Edit("function", f"{other.__name__} for {call}", changed)
+# ------------------------------------------------------------------ changes
 
 
-def _swapped(expr: Expr, swaps: tuple[Symbol, ...], units: Units) -> Iterator[Edit]:
-    held = [s for s in swaps if expr.has(s)]
-    pairs = [pair for pair in permutations(swaps, 2) if expr.has(pair[0]) and _fit(pair, units)]
+def _negated(place: Place, swaps: Swaps) -> _Changed:
+    yield f"of {place}", -place.part
+
+
+def _scaled(place: Place, swaps: Swaps) -> _Changed:
+    """Write another factor, or make the number of a term larger or smaller by one."""
+    factors = [*(_FACTORS if place.within is None else _OF_A_TERM)]
+    if place.within and any(n.exp.is_Rational and n.exp.q > 1 for n in place.part.atoms(Pow)):
+        factors += _OF_A_ROOT
+    number = place.part.as_coeff_Mul()[0]
+    if number.is_Rational and number != 0:
+        over, under = number.p, number.q
+        others = [Rational(n, under) for n in (over + 1, over - 1)]
+        others += [Rational(over, n) for n in (under + 1, under - 1) if n]
+        factors += [other / number for other in others if other != 0]
+    for factor in factors:
+        yield f"{factor} on {place}", factor * place.part
+
+
+def _argument_scaled(place: Place, swaps: Swaps) -> _Changed:
+    call = place.part
+    if len(call.args) == 1 and not isinstance(call, Abs | sign):
+        for factor in (S(2), S.Half):
+            yield f"{factor} on the argument of {place}", call.func(factor * call.args[0])
+
+
+def _swapped(place: Place, swaps: Swaps) -> _Changed:
+    """Write one name for another, exchange two, or write the mean of both or the reciprocal."""
+    expr, end = place.part, " under the integral" if place.within else ""
+    held = [name for name in swaps if expr.has(name)]
+    pairs = [(one, other) for one in held for other in swaps[one]]
     for one, other in pairs:
-        yield Edit("swap", f"{other} for {one}", expr.xreplace({one: other}))
+        yield f"{other} for {one}{end}", expr.xreplace({one: other})
     for one, other in pairs:
         if other in held and str(one) < str(other):
-            both = expr.xreplace({one: other, other: one})
-            yield Edit("swap", f"{one} and {other} exchanged", both)
+            yield f"{one} and {other} exchanged{end}", expr.xreplace({one: other, other: one})
     for one, other in pairs:
         mean = (one + other) / 2
-        yield Edit("swap", f"{mean} for {one}", expr.xreplace({one: mean}))
-        yield from _in_one_place(expr, one, other)
-    for over in _places(expr, Integral):
-        for edit in _swapped(over.function, swaps, units):
-            inside = Integral(edit.expr, *over.limits)
-            yield Edit("swap", f"{edit.what} under the integral", _put(expr, over, inside))
+        yield f"{mean} for {one}{end}", expr.xreplace({one: mean})
+        for inner in _inside(Add, Mul, Pow)(expr):
+            if inner.part.has(one):
+                changed = inner.put(expr, inner.part.xreplace({one: other}))
+                yield f"{other} for {one} in {inner}{end}", changed
     for one in held:
-        yield Edit("swap", f"{1 / one} for {one}", expr.xreplace({one: 1 / one}))
+        yield f"{1 / one} for {one}{end}", expr.xreplace({one: 1 / one})
 
 
-def _fit(pair: tuple[Symbol, Symbol], units: Units) -> bool:
-    """Whether two names have the same unit, as far as it is known."""
-    return len({units[name] for name in pair if name in units}) < 2
+def _other_function(place: Place, swaps: Swaps) -> _Changed:
+    call = place.part
+    for other, family in _LIKE.items():
+        if other != call.func and family == _LIKE.get(call.func):
+            yield f"{other.__name__} for {place}", other(*call.args)
 
 
-def _in_one_place(expr: Expr, one: Symbol, other: Symbol) -> Iterator[Edit]:
-    for total in [*_places(expr, Add), *_places(expr, Mul), *_places(expr, Pow)]:
-        for part in total.args:
-            if part.has(one) and part != total:
-                changed = total.func(*(_swap_in(p, part, one, other) for p in total.args))
-                yield Edit("swap", f"{other} for {one} in {part}", _put(expr, total, changed))
+def _other_exponent(place: Place, swaps: Swaps) -> _Changed:
+    """Change the exponent of a factor, or of all factors with the same modulus of it.
+
+    These may have been a bracket, perhaps with a number, over which SymPy distributes its exponent.
+    """
+    number, rest = place.part.as_coeff_Mul()
+    end = f" in {place.within}" if place.within else ""
+    powers = [n.as_base_exp() for n in Mul.make_args(rest)]
+    powers = [(base, e) for base, e in powers if e.is_Rational and e != 0]
+    groups = [[(base, e)] for base, e in powers if not base.is_Function or e != 1]
+    groups += [[p for p in powers if abs(p[1]) == n] for n in sorted({abs(e) for _, e in powers})]
+    for group in groups:
+        size = abs(group[0][1])
+        inside = Mul(*(base ** (e / size) for base, e in group))
+        with_number = abs(number) ** (1 / size) * inside
+        others = {
+            -size,
+            1 / size,
+            2 * size,
+            size / 2,
+            3 * size / 2,
+            2 * size / 3,
+            size + 1,
+            size - 1,
+        }
+        for before, bracket in ((number, inside), (sign(number), with_number)):
+            for other in sorted(others - {0}):
+                changed = before * (rest / inside**size) * bracket**other
+                yield f"{other} on {bracket}{end}", changed
 
 
-def _swap_in(arg: Expr, part: Expr, one: Symbol, other: Symbol) -> Expr:
-    return arg.xreplace({one: other}) if arg == part else arg
+def _upside_down(place: Place, swaps: Swaps) -> _Changed:
+    """Invert the number of a product, or exchange a factor and a divisor."""
+    number, rest = place.part.as_coeff_Mul()
+    if number not in (1, -1):
+        yield f"-1 on {number}", rest / number
+    divisors = [n for n in Mul.make_args(rest) if isinstance(n, Pow) and n.exp.is_negative]
+    for factor in (n for n in Mul.make_args(rest) if n not in divisors and rest != n):
+        for divisor in divisors:
+            changed = place.part / (factor * divisor) ** 2
+            yield f"{factor} and {1 / divisor} exchanged", changed
 
 
-def _exponents(expr: Expr) -> Iterator[Edit]:
-    for power in _places(expr, Pow):
-        base, exp = power.base, power.exp
-        if isinstance(exp, Number):
-            others = (-exp, 2 * exp, exp / 2, 3 * exp / 2, 2 * exp / 3, exp + 1, exp - 1, 1 / exp)
-            for changed in others:
-                yield Edit("exponent", f"{changed} on {base}", _put(expr, power, base**changed))
-    for symbol in sorted((s for s in expr.free_symbols if isinstance(s, Symbol)), key=str):
-        for changed in (S(2), Rational(1, 2), S(-1)):
-            yield Edit(
-                "exponent", f"{changed} on {symbol}", expr.xreplace({symbol: symbol**changed})
-            )
+def _left_out(place: Place, swaps: Swaps) -> _Changed:
+    yield f"without {place}", S.Zero
 
 
-def _in_one_factor(expr: Expr) -> Iterator[Edit]:
-    """Yield changes of the exponent of a symbol in one term or factor."""
-    for total in [*_places(expr, Add), *_places(expr, Mul)]:
-        for part in total.args:
-            if isinstance(part, Symbol):
-                for exponent in (S(2), S.Half):
-                    changed = total.func(*(p**exponent if p == part else p for p in total.args))
-                    what = f"{exponent} on {part} in {total}"
-                    yield Edit("exponent", what, _put(expr, total, changed))
+def _name_added(place: Place, swaps: Swaps) -> _Changed:
+    for name in swaps:
+        yield f"plus {name} in {place}", place.part + name
+        yield f"minus {name} in {place}", place.part - name
 
 
-def _upside_down(expr: Expr) -> Iterator[Edit]:
-    """Yield reciprocals: of the whole expression, of a number, and of a factor and a divisor."""
-    yield Edit("exponent", f"-1 on {WHOLE}", 1 / expr)
-    for product in [n for n in _places(expr, Mul) if n.has(Symbol)]:
-        number, rest = product.as_coeff_Mul()
-        if number not in (1, -1):
-            yield Edit("exponent", f"-1 on {number}", _put(expr, product, rest / number))
-        over = [n for n in rest.args if not (isinstance(n, Pow) and n.exp.is_negative)]
-        for factor in over if isinstance(rest, Mul) else ():
-            for divisor in (n for n in rest.args if n not in over):
-                changed = product / (factor * divisor) ** 2
-                what = f"{factor} and {1 / divisor} exchanged"
-                yield Edit("exponent", what, _put(expr, product, changed))
+def _modulus(place: Place, swaps: Swaps) -> _Changed:
+    yield f"around {place}", Abs(place.part)
 
 
-def _lost_roots(expr: Expr) -> Iterator[Edit]:
-    for total in [*_places(expr, Add), expr]:
-        yield Edit("exponent", f"1/2 on {total}", _put(expr, total, sqrt(total)))
+def _no_modulus(place: Place, swaps: Swaps) -> _Changed:
+    for inside in (place.part.args[0], -place.part.args[0]):
+        yield f"{inside} for {place}", inside
 
 
-def _terms(expr: Expr, swaps: tuple[Symbol, ...]) -> Iterator[Edit]:
-    for total in _places(expr, Add):
-        for term in total.args:
-            yield Edit("term", f"without {term}", _put(expr, total, total - term))
-        for symbol in swaps:
-            for sense, word in ((1, "plus"), (-1, "minus")):
-                changed = _put(expr, total, total + sense * symbol)
-                yield Edit("term", f"{word} {symbol} in {total}", changed)
-
-
-def _moduli(expr: Expr) -> Iterator[Edit]:
-    yield Edit("modulus", f"around {WHOLE}", Abs(expr))
-    for modulus in _places(expr, Abs):
-        for sense in (1, -1):
-            inside = sense * modulus.args[0]
-            yield Edit("modulus", f"{inside} for {modulus}", _put(expr, modulus, inside))
+_RULES: tuple[tuple[str, _Places, Callable[[Place, Swaps], _Changed]], ...] = (
+    ("sign", _any(_whole, _inside(Add), _calls), _negated),
+    ("swap", _any(_whole, _inside(Integral)), _swapped),
+    ("factor", _whole, _scaled),
+    ("factor", _inside(Add), _scaled),
+    ("factor", _calls, _argument_scaled),
+    ("function", _calls, _other_function),
+    ("exponent", _any(_whole, _names, _all(Add), _all(Pow), _brackets), _other_exponent),
+    ("exponent", _inside(Add, of=Symbol), _other_exponent),
+    ("exponent", _all(Mul), _upside_down),
+    ("term", _inside(Add), _left_out),
+    ("term", _all(Add), _name_added),
+    ("modulus", _whole, _modulus),
+    ("modulus", _all(Abs), _no_modulus),
+)
+_PLAIN = 3
+"""Number of rules for changes that are tried in pairs."""

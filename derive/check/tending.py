@@ -10,6 +10,8 @@ must decrease at least as fast as that power of the distance.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from itertools import product
+from typing import TypeAlias
 
 import mpmath
 from mpmath import mpf
@@ -35,22 +37,23 @@ _STAYS = 1e-3
 _SHORT = 0.1
 """The amount by which the measured order may fall short of the printed one."""
 
+Row: TypeAlias = list[tuple[Value, Value]]
+"""Both sides at all distances from a limit."""
+
 
 @dataclass(frozen=True)
 class Approach:
     """Both sides in terms of the variables, and the expression with the end that it tends to."""
 
     claim: Claim
-    sides: list[Expr]
+    sides: tuple[Expr, Expr]
     toward: tuple[Expr, Expr]
 
     def judged(self, look: LookAtClock) -> tuple[Verdict, str]:
         """Return the verdict and the reason for it."""
-        results = dict[Symbol, tuple[Verdict, str]]()
-        for variable, moves in _movers(*self.toward).items():
-            result = self._along(variable, moves, look)
-            if result is not None:
-                results[variable] = result
+        movers = _movers(*self.toward).items()
+        tried = {variable: self._along(variable, moves, look) for variable, moves in movers}
+        results = {variable: result for variable, result in tried.items() if result is not None}
         if not results:
             why = (
                 "too few points were found from which both sides stay real up to the limit: "
@@ -63,21 +66,12 @@ class Approach:
         why = f"`as` does not say which variable moves: {each}; name this variable, as in x -> 0"
         return Verdict.UNCHECKED, why
 
-    def is_true(self, look: LookAtClock) -> bool:
-        """Whether the claim is true, whichever variable moves."""
-        found = [
-            self._along(variable, moves, look) for variable, moves in _movers(*self.toward).items()
-        ]
-        return any(found) and all(one is None or one[0] == Verdict.NUMERICAL for one in found)
-
     def ratio(self) -> Value:
         """Return the ratio of left to right close to the limit, or zero if there is none."""
         for variable, moves in _movers(*self.toward).items():
-            for value in moves:
-                for base in points(self.claim, _BASES, "limit"):
-                    row = list(self._row(base, variable, value))
-                    if len(row) == len(_DISTANCES) and row[-1][2] != 0:
-                        return row[-1][1] / row[-1][2]
+            for row in self._rows(variable, moves):
+                if row[-1][1] != 0:
+                    return row[-1][0] / row[-1][1]
         return mpf(0)
 
     def _along(
@@ -85,83 +79,85 @@ class Approach:
     ) -> tuple[Verdict, str] | None:
         """Return the verdict if one variable moves, or None if there are too few points."""
         why, seen = "", 0
-        for value in moves:
-            for base in points(self.claim, _BASES, "limit"):
-                row = list(self._row(base, variable, value))
-                if len(row) < len(_DISTANCES):
-                    continue
-                look()
-                verdict, why = self._of(row)
-                if verdict != Verdict.NUMERICAL:
-                    return verdict, why
-                seen += 1
+        for row in self._rows(variable, moves):
+            look()
+            verdict, why = self._of(row)
+            if verdict != Verdict.NUMERICAL:
+                return verdict, why
+            seen += 1
         return (Verdict.NUMERICAL, f"{why}, from {seen} points") if seen >= _BASES else None
 
-    def _row(
-        self, base: Point, variable: Symbol, value: Expr
-    ) -> Iterator[tuple[mpf, Value, Value]]:
-        """Yield the distance and both sides, step by step, as far as they are real."""
-        with mpmath.workdps(_DIGITS):
-            for size in _DISTANCES:
+    def _rows(self, variable: Symbol, moves: list[Expr]) -> Iterator[Row]:
+        """Yield both sides on the way to the limit, for all points from which they stay real."""
+        for value, base in product(moves, points(self.claim, _BASES, "limit")):
+            with mpmath.workdps(_DIGITS):
                 try:
-                    where = evaluated(value, {**base, _DISTANCE: size})
-                    point = {**base, variable: where}
-                    if not self._may_be(variable, where, value, base):
-                        return
-                    if not is_allowed(self.claim, point):
-                        return
-                    left, right = (evaluated(side, point) for side in self.sides)
+                    row = [self._at(variable, value, base, size) for size in _DISTANCES]
                 except Undecided:
-                    return
-                if mpmath.im(left) != 0 or mpmath.im(right) != 0:
-                    return
-                yield size, left, right
+                    continue
+            yield row
 
-    def _may_be(self, variable: Symbol, where: Value, value: Expr, base: Point) -> bool:
-        """Whether a variable may take a value; a limit at an end of its range has one side."""
+    def _at(self, variable: Symbol, value: Expr, base: Point, size: mpf) -> tuple[Value, Value]:
+        """Return both sides at a distance; raises Undecided if they are not real there."""
+        where = evaluated(value, {**base, _DISTANCE: size})
+        point = {**base, variable: where}
         if mpmath.im(where) != 0 or (variable.is_positive and not where > 0):
-            return False
-        span = self.claim.meant.ranges.get(variable)
-        at_limit = value.subs(_DISTANCE, 0)
-        if span is None or span.powers or at_limit.has(oo, zoo, nan):
-            return True
-        end = evaluated(at_limit, base)
-        if min(abs(end - span.low), abs(end - span.high)) > _AT_END:
-            return True
-        return bool(span.low <= where <= span.high)
+            raise Undecided(f"{variable} is not in its range")
+        span, end = self.claim.meant.ranges.get(variable), value.subs(_DISTANCE, 0)
+        if span is not None and not (span.powers or end.has(oo, zoo, nan)):
+            # a limit at an end of a range has one side
+            ends = [abs(evaluated(end, base) - each) for each in (span.low, span.high)]
+            if min(ends) <= _AT_END and not span.low <= where <= span.high:
+                raise Undecided(f"{variable} is not in its range")
+        left, right = (evaluated(side, point) for side in self.sides)
+        if mpmath.im(left) != 0 or mpmath.im(right) != 0 or not is_allowed(self.claim, point):
+            raise Undecided("a side is not real")
+        return left, right
 
-    def _of(self, row: list[tuple[mpf, Value, Value]]) -> tuple[Verdict, str]:
+    def _of(self, row: Row) -> tuple[Verdict, str]:
+        """Return the verdict for one point from which the limit is approached."""
         with mpmath.workdps(_DIGITS):
             if self.claim.meant.order is not None:
-                return self._by_order(row, self.claim.meant.order)
-            if any(right == 0 for _, _, right in row):
+                return _by_order([left - right for left, right in row], self.claim.meant.order)
+            if any(right == 0 for _, right in row):
                 return Verdict.UNCHECKED, "the right side vanishes on the way to the limit"
-            ratios = [left / right for _, left, right in row]
-            gaps = [(size, abs(r - 1)) for (size, _, _), r in zip(row, ratios, strict=True)]
-            if gaps[-1][1] == 0:
-                return Verdict.NUMERICAL, "the ratio left/right is 1"
-            order = _order(gaps)
-            if order > _SLOWEST:
-                shown = mpmath.nstr(order, 3)
-                why = f"the ratio left/right tends to 1 with the power {shown} of the distance"
-                return Verdict.NUMERICAL, why
-            own = _order([(size, abs(r)) for (size, _, _), r in zip(row, ratios, strict=True)])
-            if abs(own) > _SLOWEST:
-                limit = "0" if own > 0 else "infinity"
-                return Verdict.FAILS, f"the ratio left/right tends to {limit} and not to 1"
-            if abs(ratios[-1] - ratios[-2]) <= _STAYS * abs(ratios[-1]):
-                shown = mpmath.nstr(ratios[-1], 8)
-                return Verdict.FAILS, f"the ratio left/right tends to {shown} and not to 1"
-            why = "the ratio left/right converges too slowly for its limit to be identified"
-            return Verdict.UNCHECKED, why
+            return _by_ratio([left / right for left, right in row])
 
-    def _by_order(self, row: list[tuple[mpf, Value, Value]], wanted: float) -> tuple[Verdict, str]:
-        gaps = [(size, abs(left - right)) for size, left, right in row]
-        if gaps[-1][1] == 0:
-            return Verdict.NUMERICAL, "the difference of the two sides is zero"
-        order = _order(gaps)
-        why = f"the difference is of order {mpmath.nstr(order, 3)} (printed: {wanted:g})"
-        return (Verdict.NUMERICAL if order >= wanted - _SHORT else Verdict.FAILS), why
+
+def _by_order(gaps: list[Value], wanted: float) -> tuple[Verdict, str]:
+    if gaps[-1] == 0:
+        return Verdict.NUMERICAL, "the difference of the two sides is zero"
+    order = _order(gaps)
+    why = f"the difference is of order {mpmath.nstr(order, 3)} (printed: {wanted:g})"
+    return (Verdict.NUMERICAL if order >= wanted - _SHORT else Verdict.FAILS), why
+
+
+def _by_ratio(ratios: list[Value]) -> tuple[Verdict, str]:
+    if ratios[-1] == 1:
+        return Verdict.NUMERICAL, "the ratio left/right is 1"
+    order, own = _order([ratio - 1 for ratio in ratios]), _order(ratios)
+    if order > _SLOWEST:
+        power = mpmath.nstr(order, 3)
+        why = f"the ratio left/right tends to 1 with the power {power} of the distance"
+        return Verdict.NUMERICAL, why
+    if abs(own) > _SLOWEST:
+        limit = "0" if own > 0 else "infinity"
+    elif abs(ratios[-1] - ratios[-2]) <= _STAYS * abs(ratios[-1]):
+        limit = mpmath.nstr(ratios[-1], 8)
+    else:
+        why = "the ratio left/right converges too slowly for its limit to be identified"
+        return Verdict.UNCHECKED, why
+    return Verdict.FAILS, f"the ratio left/right tends to {limit} and not to 1"
+
+
+def _order(gaps: list[Value]) -> mpf:
+    """Return the power of the distance by which a quantity decreases in the last step."""
+    first, second = map(abs, gaps[-2:])
+    if first == 0:
+        return mpf("inf") if second == 0 else mpf("-inf")
+    if second == 0:
+        return mpf("inf")
+    return mpmath.log(first / second) / mpmath.log(_DISTANCES[-2] / _DISTANCES[-1])
 
 
 @cache
@@ -176,43 +172,30 @@ def _movers(first: Expr, end: Expr) -> dict[Symbol, list[Expr]]:
         targets = [(1 if end == oo else -1) / _DISTANCE]
     else:  # the end may depend on the variable that moves
         first, targets = first - end, [_DISTANCE, -_DISTANCE]
-    found = dict[Symbol, list[Expr]]()
-    for variable in sorted(first.free_symbols, key=in_order):
-        solved = [_solved(first, variable, target) for target in targets]
-        if moves := [value for value in solved if value is not None]:
-            found[variable] = moves
+    solved = {
+        variable: [value for target in targets for value in _solved(first, variable, target)]
+        for variable in sorted(first.free_symbols, key=in_order)
+    }
+    found = {variable: moves for variable, moves in solved.items() if moves}
     if not found:
         raise Undecided(
             f"the expression that tends to {end} could not be solved for one of its variables"
         )
-    for is_preferred in (_may_be_negative, _stays_finite):
-        preferred = {v: moves for v, moves in found.items() if is_preferred(v, moves)}
-        found = preferred or found
-    return found
+    signed = {v: moves for v, moves in found.items() if not v.is_positive}
+    staying = {v: moves for v, moves in (signed or found).items() if _stays_finite(v, moves)}
+    return staying or signed or found
 
 
-def _solved(first: Expr, variable: Symbol, target: Expr) -> Expr | None:
-    """Return the value of a variable for which `first` equals the target."""
+def _solved(first: Expr, variable: Symbol, target: Expr) -> list[Expr]:
+    """Return the value of a variable for which `first` equals the target, if there is one."""
     if not first.is_polynomial(variable):
-        return None
+        return []
     free = Dummy(variable.name)
     solutions = solve(first.xreplace({variable: free}) - target, free)
-    return solutions[0] if len(solutions) == 1 else None
-
-
-def _may_be_negative(variable: Symbol, moves: list[Expr]) -> bool:
-    return not variable.is_positive
+    return solutions if len(solutions) == 1 else []
 
 
 def _stays_finite(variable: Symbol, moves: list[Expr]) -> bool:
     """Whether a variable keeps a value, other than zero for a positive one, at the limit."""
     ends = [value.subs(_DISTANCE, 0) for value in moves]
     return all(not end.has(oo, zoo, nan) and (end != 0 or not variable.is_positive) for end in ends)
-
-
-def _order(gaps: list[tuple[mpf, mpf]]) -> mpf:
-    """Return the power of the distance by which a gap decreases in the last step."""
-    (one, first), (other, second) = gaps[-2:]
-    if first == 0:
-        return mpf("inf") if second == 0 else mpf("-inf")
-    return mpmath.log(first / second) / mpmath.log(one / other)

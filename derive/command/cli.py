@@ -292,16 +292,13 @@ def check(
     if accepting:
         accept_readings(file, explain)
         return
-    from derive.check import report
+    from derive.check import documents, report
     from derive.check.verdict import check as judged
     from derive.command import view
+    from derive.command.files import demand_page, put_page
 
-    forms = {**report.FORMS}
     if page is not None or form == "html":
-        from derive.check.page import as_html
-        from derive.command.files import demand_page, put_page
-
-        forms["html"] = as_html
+        from derive import handbook  # noqa: F401, its libraries
     if page is not None:
         demand_page(page, "--html")
 
@@ -312,14 +309,14 @@ def check(
             step(claim.name, "checking")
             findings.append(judged(claim))
             step(claim.name, "")
-    if form in forms:
-        click.echo(forms[form](paper, findings))
+    if form in documents.FORMS:
+        click.echo(documents.FORMS[form](paper, findings))
     elif explain is not None:
         output_table(view.explained(findings))
     else:
         output_table(view.checked(findings))
     if page is not None:
-        put_page(as_html(paper, findings), page, "--html")
+        put_page(documents.as_html(paper, findings), page, "--html")
         output(f"Wrote {path_of(page.resolve())}")
     elif form == "table" and explain is None:
         given = "" if file is None else f"{typed(file)} "

@@ -16,12 +16,12 @@ from sympy import (
     Mul,
     Poly,
     Pow,
-    S,
     Symbol,
     atan2,
     cosh,
     exp,
     fraction,
+    resultant,
     tan,
     together,
 )
@@ -171,11 +171,4 @@ def _squared(expr: Expr, variable: Symbol) -> Expr | None:
     base = min((n.base for n in held), key=str)
     table = {n: stand_in ** (2 * n.exp) for n in held if n.base == base}
     rest = fraction(together(expr.xreplace(table)))[0]
-    if not rest.is_polynomial(stand_in):
-        return None
-    poly = Poly(rest, stand_in)
-    even, odd = S.Zero, S.Zero
-    for (power,), coefficient in poly.terms():
-        term = coefficient * base ** (power // 2)
-        even, odd = (even, odd + term) if power % 2 else (even + term, odd)
-    return even**2 - odd**2 * base
+    return resultant(rest, stand_in**2 - base, stand_in) if rest.is_polynomial(stand_in) else None

@@ -1,15 +1,16 @@
 """True claims broken in many ways: a sign, a factor, an exponent, a swapped symbol, a lost term."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 from sympy import Expr, count_ops, pi
 
 from derive.check.claim import Claim, Verdict
+from derive.check.correction import swaps_on_right
 from derive.check.draw import has_integral
-from derive.check.repair import Edit, edits
-from derive.check.verdict import Judged, judge, swaps_on_right
+from derive.check.judge import Judged, judge
+from derive.check.repair import Edit, edits, swappable
 
 FEWEST = 5
 """Ways in which a claim is broken at least."""
@@ -46,7 +47,7 @@ def _chosen(claim: Claim, wanted: Mapping[str, int]) -> Iterator[Mutant]:
 
 def _of_kind(claim: Claim, kind: str) -> Iterator[Mutant]:
     for edit in _wanted(claim.meant.right, claim, kind):
-        yield Mutant(claim.changed(right=edit.expr), kind, edit.what)
+        yield Mutant(replace(claim, right=edit.expr), kind, edit.what)
     if count_ops(claim.meant.left) > 0 and claim.meant.through is None:
         for edit in _wanted(claim.meant.left, claim, kind):
             yield Mutant(claim.changed(left=edit.expr), kind, edit.what)
@@ -54,7 +55,7 @@ def _of_kind(claim: Claim, kind: str) -> Iterator[Mutant]:
 
 def _wanted(expr: Expr, claim: Claim, kind: str) -> Iterator[Edit]:
     swaps = claim.meant.swaps if expr != claim.meant.right else swaps_on_right(claim)
-    for edit in edits(expr, swaps):
+    for edit in edits(expr, swappable(swaps, {})):
         if edit.kind != kind:
             continue
         if kind == "factor" and not edit.what.startswith(("2 on", f"{pi} on", "1/2 on")):

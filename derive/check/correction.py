@@ -1,0 +1,235 @@
+"""Search for the simplest change of a false equation that makes it true.
+
+The changes come in batches.  Those that agree at a few points are judged like the printed equation,
+the plainest first, until one of them is true.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import islice
+from typing import Any
+
+import mpmath
+from sympy import Expr, Pow, Symbol, count_ops, exp, sign
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
+
+from derive.check.claim import Claim, Point, Verdict
+from derive.check.diagnosis import quotient, simple
+from derive.check.draw import has_integral, points, variables
+from derive.check.judge import Judged, Sides, judge, no_clock
+from derive.check.numbers import near
+from derive.check.repair import KINDS, WHOLE, Swaps, edits, swappable
+from derive.check.tending import Approach
+from derive.command.limit import LookAtClock
+from derive.proof.values import Undecided, evaluated
+from derive.reading.relation import Relation
+
+_SCREENED = 3
+"""Number of points at which a correction is screened before it is judged in full."""
+_DRAWN = 16
+"""Number of points from which those points are chosen."""
+_OF_LIMITS = 6
+"""Digits to which the limit of a ratio must agree with a simple constant."""
+_FIRSTS = 12
+"""The largest number of first changes that are combined with a second one."""
+_STEEP = 16
+"""Powers with larger exponents may be too small to appear in any digit."""
+
+
+@dataclass(frozen=True)
+class Repair:
+    """An equation that differs from the printed one by a change.
+
+    change  the kind of the change, and what was changed
+    judged  the evidence that it is true; None before it is judged
+    also    other changes that passed the screening, in words
+    """
+
+    left: Expr
+    right: Expr
+    relation: Relation
+    kind: str
+    change: str
+    judged: Judged
+    also: tuple[str, ...] = ()
+
+    @property
+    def plainness(self) -> tuple[int, int, str]:
+        """A sort key: the plainest equation comes first."""
+        return count_ops(self.left) + count_ops(self.right), KINDS.index(self.kind), self.change
+
+    def is_identity(self) -> bool:
+        """Whether the sides are the same expression, as p and sqrt(p**2) are for positive p."""
+        held = self.left.free_symbols | self.right.free_symbols
+        table = {s: Symbol(s.name, positive=True) for s in held if s.is_real is None}
+        return bool(self.left.xreplace(table) == self.right.xreplace(table))
+
+
+_NOT_YET = Judged(Verdict.UNCHECKED, "")
+
+
+def repaired(claim: Claim, look: LookAtClock = no_clock) -> tuple[Repair | None, int]:
+    """Return the simplest change that makes the claim true, and the number of changes tried."""
+    tried, screen = 0, _Screen(claim, look)
+    for batch in _batches(claim):
+        fitting = []
+        for each in batch:
+            look()
+            tried += 1
+            if claim.meant.is_inequality or (not each.is_identity() and screen.fits(each)):
+                fitting.append(each)
+        for each in sorted(fitting, key=lambda one: one.plainness):
+            of_its_relation = claim.changed(relation=each.relation)
+            judged = judge(of_its_relation, each.left, each.right, claim.meant.meaning, look)
+            if is_carried(of_its_relation, each.left, each.right, judged):
+                others = {(one.left, one.right): one.change for one in fitting}
+                del others[each.left, each.right]  # changes that lead to the same equation
+                return replace(each, judged=judged, also=tuple(others.values())), tried
+    return None, tried
+
+
+def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
+    """Whether the evidence is sufficient for a corrected equation.
+
+    Agreement in digits may mislead: 1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4.
+    Equations with such functions must be proven, and so must those with sign functions, which
+    vanish at points that may never be drawn.
+    """
+    if claim.meant.relation.is_ordered or has_integral(claim) or claim.meant.toward:
+        return judged.good
+    sides = Sides(claim, *claim.meant.sides(left, right), claim.meant.meaning)
+    if any(map(_may_fade, sides.in_variables)) or left.has(sign) or right.has(sign):
+        return judged.verdict == Verdict.HOLDS
+    return judged.good
+
+
+def _may_fade(expr: Expr) -> bool:
+    """Whether a part may be nonzero but too small to appear in any digit."""
+    powers = (power.exp for power in expr.atoms(Pow))
+    return expr.has(exp, HyperbolicFunction) or any(
+        not each.is_number or abs(each) > _STEEP for each in powers
+    )
+
+
+# ------------------------------------------------------------------ candidates
+
+
+def _batches(claim: Claim) -> Iterator[Iterable[Repair]]:
+    """Yield changes of which the simplest true one is chosen, batch by batch.
+
+    An inequality may be an equation, or the opposite inequality.  For an equation, single changes
+    come first, and then the constant by which the sides differ.  If none of them is sufficient,
+    pairs of changes are tried.  If each trial is slow, single changes are tried kind by kind,
+    beginning with those of a whole side.
+    """
+    if claim.meant.is_inequality:
+        for relation in (Relation.EQUAL, claim.meant.relation.turned):
+            change = f"relation {relation} for {claim.meant.relation}"
+            if claim.meant.left != claim.meant.right:
+                sides = claim.meant.left, claim.meant.right
+                yield [Repair(*sides, relation, "relation", change, _NOT_YET)]
+        return
+    single = _single(claim)
+    if has_integral(claim) or claim.meant.toward is not None:
+        every = list(single)
+        yield (each for each in every if each.change.endswith(WHOLE))
+        yield _scaled(claim)
+        for kind in KINDS:
+            yield (e for e in every if e.kind == kind and not e.change.endswith(WHOLE))
+    else:
+        yield single
+        yield _scaled(claim)
+    yield _double(claim)
+
+
+def _changed(claim: Claim, left: Expr, right: Expr, kind: str, what: str) -> Repair:
+    return Repair(left, right, claim.meant.relation, kind, f"{kind} {what}", _NOT_YET)
+
+
+def swaps_on_right(claim: Claim) -> tuple[Symbol, ...]:
+    """Return the names that may be swapped on the right side, which does not define the left one.
+
+    If a = c, the equations a = a and a = (a + c)/2 are true, but correct nothing.
+    """
+    keep = claim.meant.right.has(claim.meant.left)
+    return tuple(name for name in claim.meant.swaps if keep or name != claim.meant.left)
+
+
+def _swaps(claim: Claim, names: tuple[Symbol, ...]) -> Swaps:
+    return swappable(names, {} if claim.units else claim.meant.unit_of)
+
+
+def _single(claim: Claim) -> Iterator[Repair]:
+    for edit in edits(claim.meant.right, _swaps(claim, swaps_on_right(claim))):
+        yield _changed(claim, claim.meant.left, edit.expr, edit.kind, edit.what)
+    if not isinstance(claim.meant.left, Symbol):
+        for edit in edits(claim.meant.left, _swaps(claim, claim.meant.swaps)):
+            yield _changed(claim, edit.expr, claim.meant.right, edit.kind, edit.what)
+
+
+def _scaled(claim: Claim) -> Iterator[Repair]:
+    """Yield the equation with the constant by which its sides differ, if it is simple."""
+    factor: Expr | None = None
+    if claim.meant.through is not None or not variables(claim):
+        return
+    if claim.meant.toward is not None:
+        sides = Sides(claim, claim.meant.left, claim.meant.right, claim.meant.meaning).in_variables
+        factor = simple(Approach(claim, sides, claim.meant.toward).ratio(), digits=_OF_LIMITS)
+    elif (ratio := quotient(claim)) is not None and ratio.powers == 1:
+        factor = simple(ratio.constant)
+    if factor is not None:
+        what = f"{factor} on {WHOLE}"
+        yield _changed(claim, claim.meant.left, factor * claim.meant.right, "factor", what)
+
+
+def _double(claim: Claim) -> Iterator[Repair]:
+    """Yield pairs of changes of the right side, of which the first is a sign or a swap."""
+    swaps = _swaps(claim, swaps_on_right(claim))
+    firsts = (e for e in edits(claim.meant.right, swaps, plain=True) if e.kind in ("sign", "swap"))
+    for first in islice(firsts, _FIRSTS):
+        for second in edits(first.expr, swaps, plain=True):
+            what = f"{first.what} and {second.kind} {second.what}"
+            yield _changed(claim, claim.meant.left, second.expr, first.kind, what)
+
+
+# ------------------------------------------------------------------ screening
+
+
+class _Screen:
+    """Tests candidates at a few points; the values that they share are computed only once."""
+
+    def __init__(self, claim: Claim, look: LookAtClock) -> None:
+        self.claim, self.look = claim, look
+        self.known: dict[tuple[object, ...], Mapping[Symbol, Any]] = {}
+        drawn = list(points(claim, _DRAWN, "screen"))
+        if not claim.meant.cases and claim.meant.toward is None:  # where both sides are real
+            sides = self._sides(claim.meant.left, claim.meant.right).in_variables
+            real = list(islice((each for each in drawn if _are_real(sides, each)), _SCREENED))
+            drawn = real if len(real) == _SCREENED else drawn[:_SCREENED]
+        self.points = drawn
+
+    def _sides(self, left: Expr, right: Expr) -> Sides:
+        return Sides(
+            self.claim, *self.claim.meant.sides(left, right), self.claim.meant.meaning, self.known
+        )
+
+    def fits(self, candidate: Repair) -> bool:
+        """Whether a candidate agrees at the points, or near the limit of a claim that has one."""
+        sides = self._sides(candidate.left, candidate.right)
+        try:
+            if self.claim.meant.toward is not None:
+                approach = Approach(self.claim, sides.in_variables, self.claim.meant.toward)
+                return approach.judged(self.look)[0] == Verdict.NUMERICAL
+            return all(
+                near(*sides.at_points, sides.numbers(point)) and sides.pair(point).agree
+                for point in self.points
+            )
+        except Undecided:
+            return False
+
+
+def _are_real(sides: Iterable[Expr], point: Point) -> bool:
+    try:
+        return all(mpmath.im(evaluated(side, point)) == 0 for side in sides)
+    except Undecided:
+        return False
