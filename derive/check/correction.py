@@ -28,8 +28,6 @@ _SCREENED = 3
 """Number of points at which a correction is screened before it is judged in full."""
 _DRAWN = 16
 """Number of points from which those points are chosen."""
-_OF_LIMITS = 6
-"""Digits to which the limit of a ratio must agree with a simple constant."""
 _FIRSTS = 12
 """The largest number of first changes that are combined with a second one."""
 _STEEP = 16
@@ -169,14 +167,11 @@ def _single(claim: Claim) -> Iterator[Repair]:
 
 def _scaled(claim: Claim) -> Iterator[Repair]:
     """Yield the equation with the constant by which its sides differ, if it is simple."""
-    factor: Expr | None = None
-    if claim.meant.through is not None or not variables(claim):
+    through, toward = claim.meant.through, claim.meant.toward
+    if through is not None or toward is not None or not variables(claim):
         return
-    if claim.meant.toward is not None:
-        sides = Sides(claim, claim.meant.left, claim.meant.right, claim.meant.meaning).in_variables
-        factor = simple(Approach(claim, sides, claim.meant.toward).ratio(), digits=_OF_LIMITS)
-    elif (ratio := quotient(claim)) is not None and ratio.powers == 1:
-        factor = simple(ratio.constant)
+    ratio = quotient(claim)
+    factor = simple(ratio.constant) if ratio is not None and ratio.powers == 1 else None
     if factor is not None:
         what = f"{factor} on {WHOLE}"
         yield _changed(claim, claim.meant.left, factor * claim.meant.right, "factor", what)

@@ -23,8 +23,6 @@ from derive.sheet.notation import text_of
 _DIGITS = 40
 _SHARED = 25
 """Digits in which the reduced ratio must be the same at all points."""
-_FEW = 6
-"""The largest number of points of each kind for claims with integrals."""
 _LEAST = 3
 """The least number of points at which the ratio is compared with those that gave its powers."""
 _NAMED = 18
@@ -64,22 +62,22 @@ def diagnosis(claim: Claim) -> str:
 
 def quotient(claim: Claim) -> Quotient | None:
     """Return the ratio of the two sides if it is a constant times powers of the variables."""
-    table = dict(claim.meant.meaning)
-    sides = [
-        side.xreplace(table) for side in claim.meant.sides(claim.meant.left, claim.meant.right)
-    ]
-    most = _FEW if has_integral(claim) else None
-    where = (*islice(points(claim), most), *islice(further(claim, sides), most))
+    meant = claim.meant
+    sides = [side.xreplace(dict(meant.meaning)) for side in meant.sides(meant.left, meant.right)]
+    names = variables(claim)
+    most = len(names) + 1 + _LEAST if has_integral(claim) else None
+    found, powers = list[tuple[Point, Value]](), None
     with mpmath.workdps(_DIGITS):
-        found = list(_ratios(sides, where))
-        try:
-            powers = _powers(found, variables(claim))
-            reduced = [value / evaluated(powers, point) for point, value in found]
-        except (Undecided, ArithmeticError, ValueError):
-            return None
-        tolerance = mpf(10) ** -_SHARED * abs(reduced[0])
-        if any(abs(each - reduced[0]) > tolerance for each in reduced):
-            return None
+        for where in (points(claim), further(claim, sides)):
+            found += _ratios(sides, islice(where, most))
+            try:
+                powers = powers or _powers(found, names)
+                reduced = [value / evaluated(powers, point) for point, value in found]
+            except (Undecided, ArithmeticError, ValueError):
+                return None
+            tolerance = mpf(10) ** -_SHARED * abs(reduced[0])
+            if any(abs(each - reduced[0]) > tolerance for each in reduced):
+                return None
         return Quotient(reduced[0], powers, len(reduced))
 
 
@@ -112,8 +110,8 @@ def _powers(found: list[tuple[Point, Value]], names: list[Symbol]) -> Expr:
     return Mul(*(name ** Rational(n) for name, n in zip(names, near, strict=True)))
 
 
-def simple(constant: Value, largest: int = _SIMPLE, digits: int = _NAMED) -> Expr | None:
-    """Return the exact number with which a constant agrees to `digits` digits, or None.
+def simple(constant: Value, largest: int = _SIMPLE) -> Expr | None:
+    """Return the exact number with which a constant agrees, or None.
 
     Its modulus is a rational number with integers up to `largest`, times a power of pi, or a
     square or cube root of such a number.
@@ -129,7 +127,7 @@ def simple(constant: Value, largest: int = _SIMPLE, digits: int = _NAMED) -> Exp
             rest = abs(constant) ** degree / mpmath.pi**power
             near = Fraction(int(mpmath.nint(rest * 2**80)), 2**80).limit_denominator(largest)
             gap = abs(rest - mpf(near.numerator) / near.denominator)
-            if 0 < near.numerator <= largest and gap <= mpf(10) ** -digits:
+            if 0 < near.numerator <= largest and gap <= mpf(10) ** -_NAMED:
                 return Mul(-1 if constant < 0 else 1, root(Rational(near) * pi**power, degree))
     return None
 

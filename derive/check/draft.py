@@ -34,7 +34,8 @@ from derive.reading.statements import Statement, remarks, separate, statements
 _SECONDS = 10.0
 """The time limit for reading one equation, in seconds."""
 _SHOWN = 4
-"""The number of words of LaTeX that show where an error occurred."""
+_LONGEST = 80
+"""The largest number of words and characters of LaTeX that show where an error occurred."""
 _KNOWN = frozenset({"E_star", "f", "x", "s", "xi"})
 """Names that every claims file knows without a declaration."""
 _NEW = "give the name of a new file with --draft"
@@ -233,7 +234,7 @@ def _told(error: BadFormula) -> str:
     """Return the reason for an error, with the LaTeX where it occurred."""
     if isinstance(error, UnknownName):
         return error.why
-    shown = " ".join(error.given[error.column :].split()[:_SHOWN])
+    shown = " ".join(error.given[error.column :].split()[:_SHOWN])[:_LONGEST]
     return f"{error.why}{f', at `{shown}`' if shown else ''}: {error.remedy}"
 
 

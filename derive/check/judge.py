@@ -169,9 +169,9 @@ class Judging:
     # -------------------------------------------------------------- at points
 
     def _first_points(self) -> Iterator[Point]:
-        """Yield points of moderate size, and more of them if a side was not a real number."""
+        """Yield points of moderate size, and more of them if both sides were real at some only."""
         yield from points(self.claim)
-        if (self.unreal or self.left_out) and not self.claim.meant.cases:
+        if self.found and (self.unreal or self.left_out) and not self.claim.meant.cases:
             for n in range(_MORE_DRAWN):
                 for point in points(self.claim, seed=f"more{n or ''}"):
                     if len(self.found) < LEAST:

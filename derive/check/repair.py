@@ -76,7 +76,7 @@ class Place:
 
 
 _Places = Callable[[Expr], Iterable[Place]]
-_Changed = Iterator[tuple[str, Expr]]
+_Changed = Iterable[tuple[str, Expr]]
 """What is changed, in words, and what is written in that place."""
 
 
@@ -147,10 +147,6 @@ def _any(*rules: _Places) -> _Places:
 
 
 # ------------------------------------------------------------------ changes
-
-
-def _negated(place: Place, swaps: Swaps) -> _Changed:
-    yield f"of {place}", -place.part
 
 
 def _scaled(place: Place, swaps: Swaps) -> _Changed:
@@ -246,27 +242,8 @@ def _upside_down(place: Place, swaps: Swaps) -> _Changed:
             yield f"{factor} and {1 / divisor} exchanged", changed
 
 
-def _left_out(place: Place, swaps: Swaps) -> _Changed:
-    yield f"without {place}", S.Zero
-
-
-def _name_added(place: Place, swaps: Swaps) -> _Changed:
-    for name in swaps:
-        yield f"plus {name} in {place}", place.part + name
-        yield f"minus {name} in {place}", place.part - name
-
-
-def _modulus(place: Place, swaps: Swaps) -> _Changed:
-    yield f"around {place}", Abs(place.part)
-
-
-def _no_modulus(place: Place, swaps: Swaps) -> _Changed:
-    for inside in (place.part.args[0], -place.part.args[0]):
-        yield f"{inside} for {place}", inside
-
-
 _RULES: tuple[tuple[str, _Places, Callable[[Place, Swaps], _Changed]], ...] = (
-    ("sign", _any(_whole, _inside(Add), _calls), _negated),
+    ("sign", _any(_whole, _inside(Add), _calls), lambda p, _: [(f"of {p}", -p.part)]),
     ("swap", _any(_whole, _inside(Integral)), _swapped),
     ("factor", _whole, _scaled),
     ("factor", _inside(Add), _scaled),
@@ -275,10 +252,13 @@ _RULES: tuple[tuple[str, _Places, Callable[[Place, Swaps], _Changed]], ...] = (
     ("exponent", _any(_whole, _names, _all(Add), _all(Pow), _brackets), _other_exponent),
     ("exponent", _inside(Add, of=Symbol), _other_exponent),
     ("exponent", _all(Mul), _upside_down),
-    ("term", _inside(Add), _left_out),
-    ("term", _all(Add), _name_added),
-    ("modulus", _whole, _modulus),
-    ("modulus", _all(Abs), _no_modulus),
+    ("term", _inside(Add), lambda p, _: [(f"without {p}", S.Zero)]),
+    ("modulus", _whole, lambda p, _: [(f"around {p}", Abs(p.part))]),
+    (
+        "modulus",
+        _all(Abs),
+        lambda p, _: [(f"{n} for {p}", n) for n in (p.part.args[0], -p.part.args[0])],
+    ),
 )
 _PLAIN = 3
 """Number of rules for changes that are tried in pairs."""

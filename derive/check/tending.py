@@ -66,14 +66,6 @@ class Approach:
         why = f"`as` does not say which variable moves: {each}; name this variable, as in x -> 0"
         return Verdict.UNCHECKED, why
 
-    def ratio(self) -> Value:
-        """Return the ratio of left to right close to the limit, or zero if there is none."""
-        for variable, moves in _movers(*self.toward).items():
-            for row in self._rows(variable, moves):
-                if row[-1][1] != 0:
-                    return row[-1][0] / row[-1][1]
-        return mpf(0)
-
     def _along(
         self, variable: Symbol, moves: list[Expr], look: LookAtClock
     ) -> tuple[Verdict, str] | None:

@@ -66,23 +66,16 @@ def switches(expr: Expr) -> Iterator[Switch]:
 def _own(expr: Expr) -> Iterator[tuple[str, Expr]]:
     """Yield the switches of the outermost operation only."""
     if isinstance(expr, Pow):
-        yield from _of_power(expr)
+        if expr.exp.is_Rational and expr.exp.q == 2:
+            yield "root", expr.base
+        elif not expr.exp.is_Integer or expr.exp < 0:
+            yield ("pole" if expr.exp.is_Integer else "log"), expr.base
     elif isinstance(expr, atan2):
         yield "kink", expr.args[0]
     elif isinstance(expr, Relational):
         yield "kink", expr.lhs - expr.rhs
     elif expr.func in _SWITCHES:
         yield from _SWITCHES[expr.func](*expr.args)
-
-
-def _of_power(expr: Expr) -> Iterator[tuple[str, Expr]]:
-    if expr.exp.is_Integer:
-        if expr.exp < 0:
-            yield "pole", expr.base
-    elif expr.exp.is_Rational and expr.exp.q == 2:
-        yield "root", expr.base
-    elif expr.base.free_symbols:
-        yield "log", expr.base
 
 
 def is_unbounded(expr: Expr, variable: Symbol) -> bool:

@@ -15,7 +15,8 @@ from sympy import Expr, Symbol, cancel
 from derive.proof.balls import Ball, Function, ball, root
 from derive.proof.points import Point, contacts, loads, named, numeric, numeric_along
 from derive.proof.quadrature import Contact
-from derive.proof.rule import remembered
+from derive.proof.rule import remembered, unchecked
+from derive.proof.values import Undecided
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, f, w, x
@@ -44,7 +45,7 @@ class NumericalRoutes:
 
     def proof(self, name: str) -> Proof | None:
         """The proof of one formula by its numerical route."""
-        with mpmath.workdps(WORKING):
+        with mpmath.workdps(WORKING), unchecked():
             if self.sheet[name].arguments[0] == P and name not in _STICK:
                 return self._substituted(self.sheet[name])
             if name not in self._routes:
@@ -102,7 +103,10 @@ class NumericalRoutes:
         return found
 
     def _at(self, name: str, point: Point) -> mpf:
-        return numeric(self.sheet.flat(name))(point)
+        try:
+            return numeric(self.sheet.flat(name))(point)
+        except Undecided:
+            return mpf("nan")
 
     def _moment(self, point: Point, contact: Contact) -> mpf:
         p = self._p(point)

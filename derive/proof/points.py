@@ -18,7 +18,7 @@ from sympy.logic.boolalg import Boolean
 
 from derive.body.geometry import Geometry
 from derive.proof.balls import Function
-from derive.proof.values import Undecided, evaluated, program
+from derive.proof.values import Undefined, evaluated, program
 from derive.proof.verdict import POINTS
 from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
@@ -113,7 +113,7 @@ def _parameters(body: Geometry, rng: random.Random) -> Point:
 
 @cache
 def numeric(expr: Expr) -> Callable[[Point], mpf]:
-    """`expr` as a function of a point, to the working digits of mpmath; NaN if none is certain."""
+    """`expr` as a function of a point, to the working digits of mpmath; NaN if it has none."""
     expr = expr.subs(e, M / P)
     if expr.is_infinite:
         return lambda point: mpmath.inf * (1 if expr.is_extended_positive else -1)
@@ -121,7 +121,7 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
     def at(point: Point) -> mpf:
         try:
             return mpf(evaluated(expr, point))
-        except Undecided:
+        except Undefined:
             return mpf("nan")
 
     return at

@@ -14,7 +14,7 @@ from sympy import Expr, Max, Min, Piecewise, Symbol, diff, nan, piecewise_fold, 
 
 from derive.body.geometry import Geometry
 from derive.proof.balls import Ball, Function, ball, number, root
-from derive.proof.rule import remembered, unchecked
+from derive.proof.rule import integral, remembered
 from derive.proof.values import evaluated, program
 from derive.symbols import x
 
@@ -56,7 +56,7 @@ class Contact:
 
     def integral(self, integrand: Function, *also: mpf) -> mpf:
         """int_{-a}^{c} integrand(s) ds, cut at the kinks and at the points `also`."""
-        return number(unchecked(integrand, sorted({-self.a, *self.kinks, *also, self.c})))
+        return number(integral(integrand, sorted({-self.a, *self.kinks, *also, self.c})))
 
     def over_root(self, integrand: Function, *also: mpf) -> mpf:
         """int_{-a}^{c} integrand(s)/w(s) ds, likewise."""
@@ -68,7 +68,7 @@ class Contact:
         for edge, end in ((-self.a, -left), (self.c, right)):
             low, high = min(edge, end), max(edge, end)
             cuts = [low, *(k for k in self.kinks if low < k < high), high]
-            total += number(unchecked(integrand, cuts))
+            total += number(integral(integrand, cuts))
         return total
 
     @cached_property

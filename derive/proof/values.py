@@ -34,7 +34,7 @@ from derive.proof.balls import (
     root,
 )
 from derive.proof.kinks import Place, is_unbounded, places
-from derive.proof.rule import integral
+from derive.proof.rule import integral, is_checked
 
 Numbers = Mapping[Symbol, Any]
 """Numbers of mpmath, or balls, for symbols."""
@@ -42,7 +42,7 @@ Operation = Callable[..., Any]
 Step = tuple[int, Operation, tuple[int, ...]]
 """The number of a value, how it is computed, and the numbers of the values it is computed from."""
 
-_GUARD = 12
+_GUARD = 6
 """Additional digits of a first attempt."""
 _ATTEMPTS = (1, 2, 4)
 """Multiples of the working digits that are tried until enough digits are certain."""
@@ -247,7 +247,7 @@ def _integrated(over: Integral, numbers: Numbers) -> Ball:
     factor, inside, limits = _separated(over)
     held = sorted(Integral(inside, limits).free_symbols, key=str)
     key = (
-        *(inside, *limits, mpmath.mp.dps),
+        *(inside, *limits, mpmath.mp.dps, is_checked()),
         *(number(part) for symbol in held for part in (numbers[symbol], numbers[symbol].rad())),
     )
     if key not in _KNOWN:
@@ -301,9 +301,10 @@ def _demand_no_pole(along: Function, cuts: Mapping[mpf, set[str]], variable: Sym
             if cuts[cut] and cuts[cut] <= _SMOOTH:
                 continue
             with mpmath.workdps(40), digits(80):
-                far, near = (abs(number(along(ball(cut + part * length)))) for part in _NEAR)
-                if far == 0 or near == 0:
+                found = [along(ball(cut + part * length)) for part in _NEAR]
+                if any(value.is_finite() and value.contains(0) for value in found):
                     continue
+                far, near = (abs(number(value)) for value in found)
                 grown = mpmath.log10(near / far) / mpmath.log10(_NEAR[0] / _NEAR[1])
             if not mpmath.isfinite(grown) or grown > _STEEPEST:
                 raise Undecided(

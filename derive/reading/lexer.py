@@ -351,9 +351,11 @@ def _nested(tokens: list[Token]) -> list[Token]:
         if token.type in _CLOSING:
             opened.append(token)
         if len(opened) > _DEEPEST:
-            raise Unclear(token.at, "brackets are nested too deeply", remedy)
+            raise Unclear(token.at, "brackets are nested too deeply", "use fewer brackets")
     if opened:
-        raise Unclear(opened[-1].at, f"this {opened[-1].text} is not closed", remedy)
+        last = opened[-1]
+        closing = _CLOSING[last.type] if last.type != "BEGIN" else last.text.replace("begin", "end")
+        raise Unclear(last.at, f"this {last.text} is not closed", f"add {closing}")
     return made
 
 

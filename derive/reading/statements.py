@@ -19,7 +19,8 @@ from derive.command.errors import BadFormula
 from derive.reading.lexer import CLAUSES, Token, Unclear, partner, plain, scan, tokens_of
 
 _MOST = 20_000
-"""The largest number of characters in a display."""
+_LONGEST = 2000
+"""The largest number of characters in a display, and in an equation."""
 _NEVER = {
     r"\propto": r"\propto does not give the factor: write the equation with the factor",
     r"\to": r"\to does not form an equation: write \sim, or as text, limit(f, x, end) = ...",
@@ -300,7 +301,10 @@ _DOTS = [Token("DOTS", r"\dots", 0)]
 
 def _fault(relation: Token, left: list[Token], right: list[Token], rest: list[Token]) -> str:
     """Return the reason why a relation between two sides cannot be compared."""
-    kinds = {each.type for each in (*left, *right)}
+    kinds, count = {each.type for each in (*left, *right)}, len(plain([*left, *right]))
+    if count > _LONGEST:
+        why = f"the equation has {count} characters, and at most {_LONGEST} are read"
+        return f"{why}: split the equation, or shorten it with new symbols"
     if relation.text in _NEVER:
         return _NEVER[relation.text]
     if "REST" in kinds:

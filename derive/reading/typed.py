@@ -41,6 +41,7 @@ _UNCLEAR = {
         "it is unclear whether this comma separates thousands",
         "write a decimal point, or no comma",
     ),
+    "unclear_cases": ("there are no cases here", "add at least one"),
     "unclear_row": ("this row has no condition", "write \\text{otherwise}, or a condition"),
 }
 """Why these rules of the grammar are refused."""
@@ -278,7 +279,8 @@ def _from_template(rule: str, *parts: Any) -> _Code:
 
 
 def _refused(rule: str, *parts: Any) -> NoReturn:
-    token = next((each for each in reversed(parts) if isinstance(each, Token)), parts[0])
+    tokens = [each for each in parts if isinstance(each, Token) and each.type != "END"]
+    token = tokens[-1] if tokens else parts[0]
     raise Unclear(token.at, *_UNCLEAR[rule])
 
 

@@ -100,7 +100,7 @@ TABLE = [(printed, GOOD, "") for printed in TRUE]
 TABLE += [(printed, BAD, "") for printed in FALSE]
 TABLE += [(printed, OPEN, "") for printed in UNDECIDED]
 TABLE += [
-    (f"integral({under}, s, -1, 1) = 0", OPEN, "pole at s = ")
+    (f"integral({under}, s, -1, 1) = 0", OPEN, r"write pv, or \fint in LaTeX")
     for under in ("1/s**2", "1/(s - 0.3)")
 ]
 TABLE += [  # a side that is not real is no counter-example

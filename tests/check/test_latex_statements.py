@@ -128,6 +128,7 @@ y = \sin + a :: this cannot be the argument of a function
 y = \sum_k a :: this sum lacks a limit
 y = \frac{d}{dx} p(x) :: d/dx before its operand is not supported
 g = \begin{cases} 0 & x < b \\ 1 \end{cases} :: this row has no condition
+g = \begin{cases} \end{cases} :: there are no cases
 g = \begin{cases} 0 & x \\ 1 & x < b \end{cases} :: this is not a condition
 g = \begin{cases} 0 & x < b \text{ or } x > c, b > 0 \end{cases} :: joined by `or`, and others by
 g = \begin{cases} 0 & \text{inside} \\ 1 & x > b \end{cases} :: the words 'inside'
@@ -185,6 +186,11 @@ def test_what_is_read_but_not_judged(latex: str, why: str, tmp_path: Path) -> No
     (one,) = claims(tmp_path, rf"\[ {latex} \]")
     assert "understood" in one
     assert why in str(one["unchecked"])
+
+
+def test_a_long_equation_is_refused_at_once(tmp_path: Path) -> None:
+    (one,) = claims(tmp_path, r"\[ x_{" + "a " * 3000 + r"+} = b \]")
+    assert "at most 2000 are read" in str(one["unchecked"])
 
 
 def test_what_follows_from_a_condition_is_not_read(tmp_path: Path) -> None:

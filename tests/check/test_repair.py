@@ -53,6 +53,11 @@ def judged(folder: Path, printed: str, end: str = "") -> Finding:
         ("gamma_function(n + 1) = n*gamma_function(n/2)", "gamma(n + 1) = n*gamma(n)"),
         ("(n + t)**2 = n**2 + 3*n*t + t**2", "(n + t)**2 = n**2 + 2*n*t + t**2"),
         ("(a + c)**2 = a**2 + 2*a*c + c", "(a + c)**2 = a**2 + 2*a*c + c**2"),
+        # for x**2 > a**2, sqrt(1/w) and 1/sqrt(w) are imaginary and have opposite signs
+        (
+            "n*sqrt(1/(1 - x**2/a**2)) = n/(2*sqrt(1 - x**2/a**2))",
+            "n*sqrt(1/(1 - x**2/a**2)) = n/sqrt(1 - x**2/a**2)",
+        ),
         # a quotient of functions upside down
         (
             "2 + n = 2 + 2*gamma_function(n/2)/gamma_function(n/2 + 1)",
@@ -66,19 +71,21 @@ def test_a_misprint_is_corrected(tmp_path: Path, printed: str, right: str) -> No
     assert corrected(finding) == right
 
 
-def test_names_of_different_units_are_not_swapped(tmp_path: Path) -> None:
-    """R and c are lengths, E* and p_0 are pressures: no length is tried for a pressure."""
-    finding = judged(tmp_path, "P = exp(n)*E_star*a**2/R")
-    assert finding.verdict == Verdict.FAILS
-    assert finding.tried is not None
-    assert finding.repair is None
-
-
-@pytest.mark.parametrize("printed", ["sqrt(a*c) = a*c", "exp(a) = 2*exp(a)", "l = a"])
-def test_a_correction_is_no_identity(tmp_path: Path, printed: str) -> None:
-    """Without its root, with the constant 1/2, or with q for p_0, the right side is the left."""
+@pytest.mark.parametrize(
+    "printed",
+    [
+        # R and c are lengths, E* and p_0 are pressures: no length is tried for a pressure
+        "P = exp(n)*E_star*a**2/R",
+        # without its root, with the constant 1/2, or with q for p_0, the right side is the left
+        "sqrt(a*c) = a*c",
+        "exp(a) = 2*exp(a)",
+        "l = a",
+    ],
+)
+def test_no_correction_is_found(tmp_path: Path, printed: str) -> None:
     finding = judged(tmp_path, printed)
     assert (finding.verdict, finding.repair) == (Verdict.FAILS, None)
+    assert finding.tried
 
 
 # ------------------------------------------------------------------ what is said besides
@@ -108,12 +115,6 @@ def test_it_is_told_where_a_false_claim_is_true(
         assert finding.partly in evidence(finding)
 
 
-def test_an_integral_over_a_pole_names_the_principal_value(tmp_path: Path) -> None:
-    finding = judged(tmp_path, "integral(1/(s - k*a), s, -2*a, 2*a) = log((2 - k)/(2 + k))")
-    assert finding.verdict == Verdict.UNCHECKED
-    assert r"write pv, or \fint in LaTeX" in evidence(finding)
-
-
 def test_a_branch_that_is_zero(tmp_path: Path) -> None:
     right = "Piecewise((0, x <= a), (x - a, True))"
     assert judged(tmp_path, f"Max(0, x - a) = {right}").judged.good
@@ -135,21 +136,11 @@ def test_a_limit_does_not_let_all_lengths_vanish(tmp_path: Path, end: str) -> No
     assert corrected(finding) == "a**2 - l**2 ~ 2*a*(a - l)"
 
 
-def test_trials_are_made_where_both_sides_are_real(tmp_path: Path) -> None:
-    """For x**2 > a**2, sqrt(1/w) and 1/sqrt(w) are imaginary and have opposite signs."""
-    finding = judged(tmp_path, "n*sqrt(1/(1 - x**2/a**2)) = n/(2*sqrt(1 - x**2/a**2))")
-    assert finding.repair is not None
-    assert finding.repair.change == "factor 2 on the whole expression"
-
-
 def test_a_limit_that_depends_on_what_moves_is_unchecked(tmp_path: Path) -> None:
     finding = judged(tmp_path, "n + t*n ~ n", "n*t -> 0")
     assert finding.verdict == Verdict.UNCHECKED
     assert "if n moves" in evidence(finding)
     assert "if t moves" in evidence(finding)
     assert judged(tmp_path, "n + t*n ~ n", "t -> 0").judged.good
-
-
-def test_a_limit_at_an_end_of_a_range_has_one_side(tmp_path: Path) -> None:
-    """1 - k is never negative, since k is at most 1."""
+    # a limit at an end of a range has one side: 1 - k is never negative, since k is at most 1
     assert judged(tmp_path, "abs(1 - k) ~ 1 - k", "k -> 1").judged.good
