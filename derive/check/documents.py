@@ -76,17 +76,17 @@ def _latex(equation: Claim | Repair) -> str:
 
 def _typeset(latex: str) -> Markup:
     """Return LaTeX as MathML, or as code if it cannot be typeset."""
-    from derive.sheet.mathml import mathml
-
     plain = " ".join(_FOR_THE_EYE.sub(" ", latex).split())
     prepared = plain.replace(r"\mbox", r"\text").replace(r"\nicefrac", r"\frac")
     if r"\begin" not in prepared:
         prepared = prepared.replace("&", " ").replace(r"\\", r"\qquad ")
     try:
+        from derive.sheet.mathml import mathml
+
         formula = str(mathml(prepared))
         if all(_is_plain(each) for each in ElementTree.fromstring(formula).iter()):
             return Markup(formula)
-    except Exception:  # the converter fails in many ways on what a paper may contain
+    except Exception:  # there is no converter, or it fails on what a paper may contain
         pass
     return Markup("<code>{}</code>").format(plain)
 
@@ -122,6 +122,6 @@ def _curves(finding: Finding) -> Markup | str:
         kept = [shown & np.isfinite(curve) for curve in curves]
         if all(np.count_nonzero(each) > _SAMPLES // 2 for each in kept):
             lines = [Line("", across[k], c[k]) for k, c in zip(kept, curves, strict=True)]
-            picture = svg("both sides", symbol.name, "", lines)
+            picture = Markup(svg("both sides", symbol.name, "", lines))
             return picture + Markup("<br>left side solid, right side dashed")
     return ""

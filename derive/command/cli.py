@@ -297,8 +297,6 @@ def check(
     from derive.command import view
     from derive.command.files import demand_page, put_page
 
-    if page is not None or form == "html":
-        from derive import handbook  # noqa: F401, its libraries
     if page is not None:
         demand_page(page, "--html")
 

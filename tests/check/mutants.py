@@ -1,7 +1,7 @@
 """True claims broken in many ways: a sign, a factor, an exponent, a swapped symbol, a lost term."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
 
 from sympy import Expr, count_ops, pi
@@ -47,7 +47,7 @@ def _chosen(claim: Claim, wanted: Mapping[str, int]) -> Iterator[Mutant]:
 
 def _of_kind(claim: Claim, kind: str) -> Iterator[Mutant]:
     for edit in _wanted(claim.meant.right, claim, kind):
-        yield Mutant(replace(claim, right=edit.expr), kind, edit.what)
+        yield Mutant(claim.changed(right=edit.expr), kind, edit.what)
     if count_ops(claim.meant.left) > 0 and claim.meant.through is None:
         for edit in _wanted(claim.meant.left, claim, kind):
             yield Mutant(claim.changed(left=edit.expr), kind, edit.what)
