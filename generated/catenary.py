@@ -45,7 +45,7 @@ def tilt(a: Values, c: Values, *, R: Values, b: Values) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g'(xi) = b*sinh(xi/b)/R
 
-    Checked numerically to 40 digits at 24 points.  Route: quadrature of the defining integral of
+    Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
     g(x).  Evaluated by quadrature.
 
     Parameters
@@ -75,7 +75,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Array
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = cosh(xi/b)/R
 
-    Checked numerically to 40 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
+    Checked numerically to 49 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
     Evaluated by quadrature.
 
     Parameters
@@ -106,7 +106,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Arr
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = cosh(xi/b)/R
 
-    Checked numerically to 40 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
+    Checked numerically to 50 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
     quadrature.  Evaluated by quadrature.
 
     Parameters
@@ -137,7 +137,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, b: V
             xi))))
         g''(xi) = cosh(xi/b)/R
 
-    Checked numerically to 40 digits at 24 points.  Route: quadrature of the defining integral of
+    Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
     g(x).  Evaluated by quadrature.
 
     Parameters
@@ -170,8 +170,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
         r_right(xi) = sqrt((a + xi)/(c - xi))
         g''(xi) = cosh(xi/b)/R
 
-    K_N_left: checked numerically to 40 digits at 24 points.  Route: quadrature of the defining
-    integral of g(x), next to the left edge.  K_N_right: checked numerically to 40 digits at 24
+    K_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
+    integral of g(x), next to the left edge.  K_N_right: checked numerically to 50 digits at 24
     points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
     by quadrature.
 

@@ -45,7 +45,7 @@ def tilt(a: Values, c: Values, *, R: Values) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g'(xi) = xi/sqrt(R**2 - xi**2)
 
-    Checked numerically to 40 digits at 24 points.  Route: quadrature of the defining integral of
+    Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
     g(x).  Evaluated by quadrature.
 
     Parameters
@@ -74,7 +74,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    Checked numerically to 40 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
+    Checked numerically to 49 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
     Evaluated by quadrature.
 
     Parameters
@@ -104,7 +104,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    Checked numerically to 40 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
+    Checked numerically to 50 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
     quadrature.  Evaluated by quadrature.
 
     Parameters
@@ -134,7 +134,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> A
             xi))))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    Checked numerically to 40 digits at 24 points.  Route: quadrature of the defining integral of
+    Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
     g(x).  Evaluated by quadrature.
 
     Parameters
@@ -166,8 +166,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
         r_right(xi) = sqrt((a + xi)/(c - xi))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    K_N_left: checked numerically to 40 digits at 24 points.  Route: quadrature of the defining
-    integral of g(x), next to the left edge.  K_N_right: checked numerically to 40 digits at 24
+    K_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
+    integral of g(x), next to the left edge.  K_N_right: checked numerically to 50 digits at 24
     points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
     by quadrature.
 

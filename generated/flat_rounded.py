@@ -81,7 +81,7 @@ def tilt(a: Values, c: Values, *, R: Values, b: Values) -> Array:
         alpha = (h*involute(t_1)/(2*R) - h*involute(t_3)/(2*R) + t_1*Max(0, -b - c)/R -
             t_3*Max(0, -a - b)/R)/pi
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: I_0 from
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
     symbols, see the module.
 
@@ -202,7 +202,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, b: V
         sin_x = sqrt(Max(0, a + x)/h)
         cos_x = sqrt(Max(0, c - x)/h)
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
     symbols, see the module.
 

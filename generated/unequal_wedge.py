@@ -72,9 +72,9 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, phi_1: Values, phi_2:
             phi_2*atan2(2*P/(E_star*(phi_1 + phi_2)), 2*e))/pi
         e = M/P
 
-    a and c: proven symbolically and checked numerically to 46 digits at 24 points.  Routes:
+    a and c: proven symbolically and checked numerically to 48 digits at 24 points.  Routes:
     substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked numerically
-    to 46 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).
+    to 47 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def contact_at_tilt(
         a = -2*P/(E_star*(phi_1 + phi_2)*tan(pi*(alpha - phi_1)/(2*(phi_1 + phi_2))))
         c = -2*P*tan(pi*(alpha - phi_1)/(2*(phi_1 + phi_2)))/(E_star*(phi_1 + phi_2))
 
-    Checked numerically to 48 digits at 24 points.  Route: substituted into load(a, c), tilt(a, c).
+    Checked numerically to 49 digits at 24 points.  Route: substituted into load(a, c), tilt(a, c).
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def tilt(a: Values, c: Values, *, phi_1: Values, phi_2: Values) -> Array:
         alpha = (-phi_1*theta_1 + pi*phi_1 - phi_2*theta_1)/pi
         theta_1 = 2*atan2(sqrt(c), sqrt(a))
 
-    Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: I_0 from
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
 
     Parameters
@@ -204,7 +204,7 @@ def load(a: Values, c: Values, *, E_star: Values, phi_1: Values, phi_2: Values) 
 
         P = E_star*sqrt(a*c)*(phi_1 + phi_2)/2
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, P = (E*/2) int g'' w ds; int p dx by quadrature.
 
     Parameters
@@ -286,7 +286,7 @@ def pressure(
         u_1 = c*(a + x)
         v_1 = a*(c - x)
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
 
     Parameters

@@ -68,9 +68,9 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, phi: Values) -> Conta
         alpha = phi*(pi - 2*atan2(P/(E_star*phi), 2*e))/pi
         e = M/P
 
-    a and c: proven symbolically and checked numerically to 44 digits at 24 points.  Routes:
+    a and c: proven symbolically and checked numerically to 48 digits at 24 points.  Routes:
     substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked numerically
-    to 48 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).
+    to 49 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, phi: Valu
         a = -P/(E_star*phi*tan(pi*(alpha - phi)/(4*phi)))
         c = -P*tan(pi*(alpha - phi)/(4*phi))/(E_star*phi)
 
-    Checked numerically to 48 digits at 24 points.  Route: substituted into load(a, c), tilt(a, c).
+    Checked numerically to 49 digits at 24 points.  Route: substituted into load(a, c), tilt(a, c).
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def tilt(a: Values, c: Values, *, phi: Values) -> Array:
         alpha = phi*(pi - 2*theta_1)/pi
         theta_1 = 2*atan2(sqrt(c), sqrt(a))
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: I_0 from
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
 
     Parameters
@@ -270,7 +270,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, phi: Values) ->
         u_1 = c*(a + x)
         v_1 = a*(c - x)
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
 
     Parameters

@@ -22,7 +22,7 @@ from derive.proof.verdict import DIGITS, EXACT, shared_digits
 
 _WORKING = (120, 240)
 """Working digits, tried in this order."""
-_WITH_INTEGRALS = (40, 80)
+_WITH_INTEGRALS = (36, 80)
 """The same for sides with integrals."""
 _GUARD = 12
 """Additional digits of the balls, and those by which the bound of a vanishing sum may exceed its
@@ -94,11 +94,14 @@ def both(left: Expr, right: Expr, value: Numbers, point: Point, integrals: bool 
             one, other = map(number, balls)
             if (balls[0] - balls[1]).contains(0):  # what they differ by is not known
                 other = one
-            pair = Pair(one, other, point, min(map(known_digits, balls)))
-            if pair.known >= DIGITS and (pair.agree or pair.digits < DIGITS):
+            pair = Pair(one, other, point, min(working, *map(known_digits, balls)))
+            if pair.known >= DIGITS:
+                if integrals and not pair.agree and pair.digits >= DIGITS:
+                    raise Undecided(
+                        f"the two sides agree to {pair.digits} digits, but their integrals seem to "
+                        f"be known to {pair.known} digits"
+                    )
                 return pair
-    if pair.known >= DIGITS:
-        return pair
     with mpmath.workdps(working), digits(working + _GUARD):
         return Pair(_settled(left, balls[0], held), _settled(right, balls[1], held), point)
 
@@ -111,9 +114,23 @@ def _settled(side: Expr, found: Ball, held: Mapping[Symbol, Any]) -> Value:
     if found.contains(0) and abs(found).upper() < arb(10) ** (_GUARD - working):
         if isinstance(held, _Numbers):
             side = side.xreplace(dict(held.meaning))
-        if not any(map(_is_extreme, program(side).parts(held))):
+        if not _has_extremes(side, held):
             return mpf(0)
     raise Undecided(f"cancellation leaves fewer than {DIGITS} of {working} working digits")
+
+
+def _has_extremes(expr: Expr, held: Mapping[Symbol, Any]) -> bool:
+    """Whether a part is extreme, also of an integrand in the middle of its range."""
+    if any(map(_is_extreme, program(expr).parts(held))):
+        return True
+    for over in expr.atoms(Integral):
+        if over.free_symbols <= held.keys():
+            middle = {symbol: held[symbol] for symbol in over.free_symbols}
+            for variable, low, high in reversed(over.limits):
+                middle[variable] = (program(low)(middle) + program(high)(middle)) / 2
+            if _has_extremes(over.function, middle):
+                return True
+    return False
 
 
 def _is_extreme(part: Any) -> bool:

@@ -134,9 +134,9 @@ FUNCTIONS: dict[type, Callable[..., Any]] = {
     sympy.Abs: abs,
     sympy.sign: _sign,
     sympy.Heaviside: lambda value, _: (1 + _sign(value)) / 2,
-    sympy.atan2: lambda y, along: arb.atan2(arb(y), arb(along)),
-    sympy.Max: lambda *values: reduce(arb.max, values),
-    sympy.Min: lambda *values: reduce(arb.min, values),
+    sympy.atan2: lambda y, along: arb.atan2(_ordered(y), _ordered(along)),
+    sympy.Max: lambda *values: reduce(arb.max, map(_ordered, values)),
+    sympy.Min: lambda *values: reduce(arb.min, map(_ordered, values)),
     sympy.elliptic_k: lambda m: _real(acb(m).elliptic_k()),
     sympy.elliptic_e: lambda m: _real(acb(m).elliptic_e()),
     sympy.elliptic_pi: lambda n, m: _real(acb.elliptic_pi(acb(n), acb(m))),
@@ -153,6 +153,11 @@ FUNCTIONS: dict[type, Callable[..., Any]] = {
     sympy.Unequality: _compared(lambda gap: gap != 0),
 }
 """What SymPy's functions are for balls."""
+
+
+def _ordered(value: Ball) -> arb:
+    """A real ball; NaN for a number that is not real."""
+    return value if isinstance(value, arb) else value.real if value.imag.contains(0) else arb("nan")
 
 
 def _real(value: acb) -> Ball:

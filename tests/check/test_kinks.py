@@ -212,7 +212,7 @@ ONE = "integral(log(abs(sin(40*s) - w)), s, 0, a)"
             "not finished within 1 s",
         ),
         (
-            "integral(sign(sin(5*s)), s, 0, 3) = 18*pi/5 - 3 - 12*pi/5 - pi",
+            "integral(sign(sin(40*s)), s, 0, 3) = 18*pi/5 - 3 - 12*pi/5 - pi",
             Verdict.FAILS,
             "the search for a correction: not finished within 1 s",
         ),
