@@ -3,7 +3,8 @@
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that do not take long
 # make thorough  all tests: more bodies, cases and points than make test takes
-# make mutants  a hundred faults in the theory and the rewriting rules: which no test catches; more than an hour
+# make mutants  a hundred faults in each of four parts: which no test catches; hours, or an hour
+#             for one part: make mutants GROUP=theory, check, proof or runtime
 # make bench  speed, all figures of one run: docs/performance.md; some minutes, on two idle cores;
 #             bench-monte-carlo: time and memory of the Monte Carlo of examples/, to 1e8 samples:
 #             notebooks/monte_carlo.md
@@ -43,25 +44,25 @@ thorough: $(STAMP)
 	$(PYTEST) -m ''
 
 mutants: $(STAMP)
-	OMP_NUM_THREADS=1 $(BIN)/python -m tests.mutants
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.mutants $(or $(GROUP),all)
 
 bench: $(STAMP)
-	OMP_NUM_THREADS=1 $(BIN)/python -m tests.benchmarks.speed
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.measure.benchmarks.speed
 
 bench-monte-carlo: $(STAMP)
-	OMP_NUM_THREADS=1 $(BIN)/python -m tests.benchmarks.monte_carlo
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.measure.benchmarks.monte_carlo
 
 series: $(STAMP)
-	$(BIN)/python -m tests.benchmarks.series
+	$(BIN)/python -m tests.measure.benchmarks.series
 
 solver: $(STAMP)
-	OMP_NUM_THREADS=1 $(BIN)/python -m tests.reference
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.measure.solver
 
 comparison: $(STAMP)
-	OMP_NUM_THREADS=1 $(BIN)/python -m tests.comparison
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.measure.comparison
 
 accuracy: $(STAMP)
-	$(BIN)/python -m tests.accuracy.report
+	$(BIN)/python -m tests.measure.accuracy.report
 
 notebooks: $(STAMP)
 	$(BIN)/python -m notebooks

@@ -1,15 +1,18 @@
-"""Faults put into the theory and the rewriting rules, one at a time: which of them no test catches.
+"""Faults put into the program, one at a time: which of them no test catches.
 
-    python -m tests.mutants [--count 100] [--jobs 2] [--only TEXT]
+    python -m tests.mutants GROUP [--count 100] [--jobs 2] [--only TEXT]
 
-A mutant changes one sign, factor or exponent of one file.  It is caught if a test of the theory
-fails, if a body can no longer be built, if a generated module is no longer what is committed, or if
-a test of `make thorough` fails.  Each is printed with what caught it, and the exit status is 1 if
-more than one in a hundred survives.
+GROUP is theory, check, proof or runtime; `all` takes one after the other.  A mutant exchanges one
+operator, comparison or boolean, drops a sign or a `not`, adds one to a number, or exchanges two
+arguments of one call.  It is caught if a test fails or runs on for too long; tests that compare the
+committed text of generated/ do not count.  The tests named after the mutated file run first, then
+those of its folder, then the others of its group, each until the first failure.  Every mutant is
+printed with the test that caught it.  The exit status is 1 if more than three in a hundred survive.
 """
 
 import ast
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,84 +22,152 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
 from pathlib import Path
+from queue import Queue
 from typing import NamedTuple
 
 ROOT = Path(__file__).parent.parent
-FILES = [
-    *sorted((ROOT / "derive/theory").glob("*.py")),
-    *(ROOT / "derive" / "codegen" / name for name in ("angles.py", "rewrite.py")),
-]
-BODIES = ("wedge", "hertz", "unequal_wedge", "quartic", "flat_rounded", "rounded_wedge", "catenary")
-"""Built of every mutant, and compared with what is committed."""
+COPIED = ("derive", "generated", "tests", "notebooks", "docs", "examples", "pyproject.toml")
+OF_TEXT = "not committed and not fresh_run and not drift"
+"""Names of tests that compare text; they are not run."""
 
-TESTS = (
-    *("derive/theory", "derive/codegen/rewrite.py"),  # their examples
-    *("tests/derive/theory", "tests/derive/test_closed_forms.py", "tests/edge/test_theory.py"),
-    *("tests/codegen/test_rewrite.py", "tests/codegen/test_parts.py"),
+LONGEST = 900
+"""Seconds after which tests that run on have caught a mutant."""
+
+SLIP = (
+    "tests/runtime/test_zone.py",
+    "tests/generated/test_stick.py",
+    "tests/generated/test_shear.py",
 )
-LONGEST = 600
-"""Seconds after which a mutant that runs on is caught."""
+CONTACT = ("tests/generated/test_quadrature.py", "tests/generated/test_library.py")
+GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
+    "theory": {
+        "derive/theory": ("tests/derive/theory", "tests/derive/test_closed_forms.py"),
+        "derive/codegen": ("tests/codegen",),
+    },
+    "check": {
+        "derive/check": ("tests/check",),
+        "derive/reading": ("tests/derive/reading", "tests/check"),
+    },
+    "proof": {
+        "derive/proof": ("tests/derive/proof",),
+        "derive/body": ("tests/derive/body",),
+    },
+    "runtime": {
+        "generated/runtime/slip": SLIP,
+        "generated/runtime/history": ("tests/runtime/test_history.py",),
+        "generated/runtime/edge": ("tests/edge",),
+        "generated/runtime": CONTACT,
+    },
+}
+"""Folders of each group, and the tests that concern what is in them."""
 
-BUILD = """
-import sys
-from pathlib import Path
-from derive.pipeline import build
-for name in sys.argv[1:]:
-    made = build(name)
-    if made.text != (Path("generated") / f"{name}.py").read_text(encoding="utf-8"):
-        sys.exit(f"{name}.py differs")
-    if made.stuck != Path("generated/full_stick.py").read_text(encoding="utf-8"):
-        sys.exit("full_stick.py differs")
-"""
+ALL_OF: dict[str, tuple[str, ...]] = {
+    "theory": (
+        "derive/theory",
+        "tests/derive/theory",
+        "tests/codegen",
+        "tests/edge/test_theory.py",
+    ),
+    "check": ("tests/check", "tests/derive/reading"),
+    "proof": ("tests/derive/proof", "tests/derive/body", "tests/derive/sheet"),
+    "runtime": ("tests/runtime", "tests/generated", "tests/edge"),
+}
+"""Everything that may catch a mutant of a group."""
+
+NAMED = {
+    "march": ("tests/runtime/test_march.py",),
+    "mixed": ("tests/generated/test_turning.py",),
+    "series": ("tests/generated/test_slip.py",),
+    "locked": ("tests/runtime/test_zone.py",),
+    "segments": ("tests/runtime/test_segments.py",),
+    "inverse": ("tests/generated/test_library.py",),
+    "cycle": ("tests/runtime/test_cycle.py",),
+    "cycles": ("tests/runtime/test_zone.py", "tests/runtime/test_march.py"),
+    "chunks": ("tests/runtime/test_chunks.py",),
+}
+"""Tests of files that are not named after them."""
 
 
 class Mutant(NamedTuple):
-    """One fault: the file, the line, what stood there, what stands there now, the whole text."""
+    """One fault: the file, its number there, the line, what stood there, what stands there now."""
 
-    path: Path
+    path: str
+    number: int
     line: int
     before: str
     after: str
-    text: str
 
     def __str__(self) -> str:
-        place = f"{self.path.relative_to(ROOT)}:{self.line}"
-        return f"{place}: {self.before}  ->  {self.after}"
+        return f"{self.path}:{self.line}: {self.before}  ->  {self.after}"
+
+    @property
+    def text(self) -> str:
+        """The whole file with the fault."""
+        tree = ast.parse((ROOT / self.path).read_text(encoding="utf-8"))
+        _, *change = [*_places(tree)][self.number]
+        setattr(*change)
+        return ast.unparse(tree)
+
+    def tests(self, group: str) -> Iterator[tuple[str, ...]]:
+        """Tests to run, in turn: those of the file, of its folder, of the group."""
+        stem = Path(self.path).stem
+        own = [str(p.relative_to(ROOT)) for p in (ROOT / "tests").rglob(f"test_{stem}.py")]
+        yield (*own, *NAMED.get(stem, ()))
+        yield next(tests for folder, tests in GROUPS[group].items() if folder in self.path)
+        yield ALL_OF[group]
+
+
+# ------------------------------------------------------------------ faults
+
+Place = tuple[ast.AST, ast.AST, str, object]
+"""What is shown; and what gets which attribute."""
+
+OTHER: dict[type[ast.AST], type[ast.AST]] = {
+    **{ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult},
+    **{ast.Lt: ast.GtE, ast.GtE: ast.Lt, ast.Gt: ast.LtE, ast.LtE: ast.Gt},
+    **{ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Is: ast.IsNot, ast.IsNot: ast.Is},
+    **{ast.In: ast.NotIn, ast.NotIn: ast.In, ast.And: ast.Or, ast.Or: ast.And},
+}
 
 
 def mutants_of(path: Path) -> Iterator[Mutant]:
-    """Every fault of one file: + for -, * for /, a sign dropped, a whole number one larger."""
-    source = path.read_text(encoding="utf-8")
-    for number, (node, _) in enumerate(_places(ast.parse(source))):
-        tree = ast.parse(source)
-        place, change = [*_places(tree)][number]
-        before = ast.unparse(place)
-        change()
-        after = ast.unparse(place)
-        yield Mutant(path, node.lineno, before, after, ast.unparse(tree))
+    """Every fault of one file."""
+    tree, name = ast.parse(path.read_text(encoding="utf-8")), str(path.relative_to(ROOT))
+    for number, (shown, changed, attribute, value) in enumerate([*_places(tree)]):
+        before, kept = ast.unparse(shown), getattr(changed, attribute)
+        setattr(changed, attribute, value)
+        yield Mutant(name, number, getattr(shown, "lineno", 0), before, ast.unparse(shown))
+        setattr(changed, attribute, kept)
 
 
-def _places(tree: ast.AST) -> Iterator[tuple[ast.expr, object]]:
-    """Arithmetic that can be changed, and what changes it."""
+def _places(tree: ast.AST) -> Iterator[Place]:
     for node in ast.walk(tree):
         match node:
-            case ast.BinOp(op=ast.Add() | ast.Sub() | ast.Mult() | ast.Div()):
+            case ast.BinOp(op=ast.Add() | ast.Sub() | ast.Mult() | ast.Div()) | ast.BoolOp():
                 if not _is_text(node):
-                    yield node, lambda node=node: setattr(node, "op", _OTHER[type(node.op)]())
+                    yield node, node, "op", OTHER[type(node.op)]()
                 yield from _numbers(node)
             case ast.BinOp(op=ast.Pow()):
                 yield from _numbers(node)
+            case ast.Compare(ops=[op]) if type(op) in OTHER:
+                yield node, node, "ops", [OTHER[type(op)]()]
+                yield from _numbers(node)
             case ast.UnaryOp(op=ast.USub()):
-                yield node, lambda node=node: setattr(node, "op", ast.UAdd())
+                yield node, node, "op", ast.UAdd()
+            case ast.UnaryOp(op=ast.Not(), operand=operand):
+                yield node, node, "operand", ast.UnaryOp(ast.Not(), operand)
+            case ast.Call(args=[ast.Name() as one, ast.Name() as other, *rest]):
+                if one.id != other.id:
+                    yield node, node, "args", [other, one, *rest]
 
 
-def _numbers(node: ast.BinOp) -> Iterator[tuple[ast.expr, object]]:
-    for side in (node.left, node.right):
+def _numbers(node: ast.AST) -> Iterator[Place]:
+    for side in ast.iter_child_nodes(node):
         if isinstance(side, ast.Constant) and type(side.value) is int:
-            yield node, lambda side=side: setattr(side, "value", side.value + 1)
+            yield node, side, "value", side.value + 1
 
 
-def _is_text(node: ast.BinOp) -> bool:
+def _is_text(node: ast.AST) -> bool:
     return any(
         isinstance(part, ast.JoinedStr | ast.List | ast.Tuple | ast.Dict)
         or (isinstance(part, ast.Constant) and isinstance(part.value, str))
@@ -104,63 +175,91 @@ def _is_text(node: ast.BinOp) -> bool:
     )
 
 
-_OTHER = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}
-
-
-def chosen(count: int, only: str) -> list[Mutant]:
+def chosen(group: str, count: int, only: str) -> list[Mutant]:
     """So many of all, in an order that is the same everywhere and has nothing to do with place."""
-    every = [m for path in FILES for m in mutants_of(path) if only in str(m)]
+    files = {path for folder in GROUPS[group] for path in (ROOT / folder).rglob("*.py")}
+    every = [m for path in sorted(files) for m in mutants_of(path) if only in str(m)]
     return sorted(every, key=lambda m: sha256(str(m).encode()).digest())[:count]
 
 
-def caught(mutant: Mutant) -> str:
-    """What catches a mutant; nothing if it survives."""
-    plain = os.environ | {"NUMBA_DISABLE_JIT": "1"}  # to compile takes longer than to run once
-    with tempfile.TemporaryDirectory() as folder:
-        home = Path(folder)
-        for name in ("derive", "generated", "tests", "pyproject.toml"):
-            source = ROOT / name
-            if source.is_dir():
-                shutil.copytree(source, home / name)
-            else:
-                shutil.copy(source, home)
-        (home / mutant.path.relative_to(ROOT)).write_text(mutant.text, encoding="utf-8")
-        tests = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *TESTS]
-        steps = {
-            "tests": tests,
-            "build": [sys.executable, "-c", BUILD, *BODIES],
-            "thorough": [*tests, "-m", "thorough"],
-        }
-        for name, command in steps.items():
+# ------------------------------------------------------------------ tests
+
+
+class Sandbox:
+    """A copy of the program, its tests and compiled kernels, in which one file changes."""
+
+    def __init__(self, home: Path) -> None:
+        self.home = home
+        for name in COPIED:
+            source, target = ROOT / name, home / name
+            (shutil.copytree if source.is_dir() else shutil.copy2)(source, target)
+
+    def caught(self, mutant: Mutant, group: str, text: str) -> str:
+        """The first test that fails if the mutated file has this text; nothing if none does."""
+        path = self.home / mutant.path
+        kept = path.read_text(encoding="utf-8")
+        path.write_text(text, encoding="utf-8")
+        try:
+            return next(filter(None, map(self._failed, mutant.tests(group))), "")
+        finally:
+            path.write_text(kept, encoding="utf-8")
+
+    def _failed(self, tests: tuple[str, ...]) -> str:
+        if not tests:
+            return ""
+        command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider"]
+        settings = os.environ | {"PYTHONPATH": str(self.home), "OMP_NUM_THREADS": "1"}
+        try:
+            done = subprocess.run(
+                [*command, "-k", OF_TEXT, *tests],
+                cwd=self.home,
+                env=settings,
+                capture_output=True,
+                text=True,
+                timeout=LONGEST,
+            )
+        except subprocess.TimeoutExpired:
+            return "time"
+        failed = re.findall(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.M)
+        return failed[0] if failed else "no test runs" if done.returncode not in (0, 5) else ""
+
+
+def tried(group: str, count: int, jobs: int, only: str) -> tuple[int, int]:
+    """How many mutants of a group survive, of how many."""
+    mutants = chosen(group, count, only)
+    survivors = 0
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:
+        idle: Queue[Sandbox] = Queue()
+        for number in range(jobs):
+            idle.put(Sandbox(Path(folder) / str(number)))
+
+        def caught(mutant: Mutant, text: str = "") -> str:
+            sandbox = idle.get()
             try:
-                done = subprocess.run(
-                    command, cwd=home, env=plain, capture_output=True, timeout=LONGEST, check=False
-                )
-            except subprocess.TimeoutExpired:
-                return f"{name}: time"
-            if done.returncode:
-                return name
-    return ""
+                return sandbox.caught(mutant, group, text or mutant.text)
+            finally:
+                idle.put(sandbox)
+
+        if by := caught(mutants[0], (ROOT / mutants[0].path).read_text(encoding="utf-8")):
+            sys.exit(f"no fault is needed: {by} fails as it is")
+        for mutant, by in zip(mutants, pool.map(caught, mutants), strict=True):
+            survivors += not by
+            print(f"{by or 'SURVIVES'}  {mutant}", flush=True)
+    print(f"{group}: {len(mutants) - survivors} of {len(mutants)} mutants caught", flush=True)
+    return survivors, len(mutants)
 
 
 def main() -> int:
     """Try the mutants, and tell what survives."""
     parser = ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("group", choices=[*GROUPS, "all"])
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="", help="part of a file, a line or an expression")
     given = parser.parse_args()
-    mutants = chosen(given.count, given.only)
-    same = mutants[0]._replace(text=mutants[0].path.read_text(encoding="utf-8"))
-    if by := caught(same):
-        sys.exit(f"no fault is needed: {by} fails as it is; run `make` and `make test` first")
-    survivors = 0
-    with ThreadPoolExecutor(given.jobs) as pool:
-        for mutant, by in zip(mutants, pool.map(caught, mutants), strict=True):
-            survivors += not by
-            print(f"{by or 'SURVIVES':12} {mutant}", flush=True)
-    print(f"{len(mutants) - survivors} of {len(mutants)} mutants caught")
-    return int(survivors > len(mutants) / 100)
+    groups = GROUPS if given.group == "all" else [given.group]
+    results = [tried(group, given.count, given.jobs, given.only) for group in groups]
+    return int(any(lost > 0.03 * total for lost, total in results))
 
 
 if __name__ == "__main__":

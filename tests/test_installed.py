@@ -1,6 +1,5 @@
 """What an installed package does without a clone, and `generated` without SymPy."""
 
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,7 +10,6 @@ from click.testing import CliRunner
 import derive.pipeline
 from derive.body.library import library
 from derive.command.cli import main
-from derive.command.errors import MissingLibrary
 
 ROOT = Path(__file__).parents[1]
 
@@ -53,16 +51,3 @@ def test_an_installed_package_is_not_written_to(
     assert done.output.count("\n") == 1
     assert "--out" in done.output and "installed" in done.output
     assert not list(installed.iterdir())
-
-
-def test_a_word_about_a_missing_library_names_an_extra_that_there_is() -> None:
-    text = (ROOT / "pyproject.toml").read_text()
-    asked = [
-        name
-        for path in sorted((ROOT / "derive").rglob("*.py"))
-        for name in re.findall(r'MissingLibrary\(.*"(\w+)"\)', path.read_text())
-    ]
-    assert len(asked) >= 3
-    for extra in asked:
-        assert f"\n{extra} = [" in text
-        assert f"[{extra}]" in str(MissingLibrary("a library", "a page", extra))

@@ -13,11 +13,10 @@ from sympy.core.function import AppliedUndef
 
 from derive import symbols as ours
 from derive.reading.improper import proper
-from derive.sheet.mathml import mathml
 from derive.theory.moments import full_moment, slope_moment
 from generated import hertz
 from tests.derive.bodies import of_library
-from tests.test_site import SITE, module
+from tests.test_site import module
 
 pytestmark = pytest.mark.slow
 
@@ -116,10 +115,3 @@ EACH = [
 def test_an_equation_of_the_outline_holds_for_a_cylinder(name: str) -> None:
     for left, right in OUTLINE.EQUATIONS[name]:
         assert value(left, name) == pytest.approx(value(right, name), rel=1e-9, abs=1e-9)
-
-
-@pytest.mark.parametrize("name", OUTLINE.EQUATIONS)
-def test_the_page_prints_every_equation_of_the_outline(name: str) -> None:
-    text = (SITE / "theory.md").read_text()
-    assert text.count(f"<<{name}>>") == 1
-    assert mathml(OUTLINE.outlined(name))

@@ -12,7 +12,7 @@ from derive.body.library import FOLDER, library
 from derive.command.cache import users_cache
 from derive.command.errors import NotProven
 from derive.command.processes import Report
-from derive.pipeline import DONE, KEPT, STAGES, build_all
+from derive.pipeline import STAGES, build_all
 from derive.proof.verdict import Verdict
 from derive.sheet.built import BuiltBody
 
@@ -134,11 +134,3 @@ def test_what_was_built_before_a_failure_is_kept(
         patched.setattr(derive.pipeline, "build", failing)
         build_all(files)
     assert [body.kept for body in build_all(files)] == [True, True, False]
-
-
-def test_every_body_is_reported_to_its_end(asked: list[str], files: list[str]) -> None:
-    heard: list[tuple[str, str]] = []
-    build_all(files[:1])
-    build_all(files[:2], lambda *told: heard.append(told))
-    assert heard[0] == (files[0], KEPT)
-    assert heard[1:] == [(files[1], stage) for stage in (*STAGES, DONE)]

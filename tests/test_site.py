@@ -2,13 +2,12 @@
 
 import importlib.util
 import re
-from inspect import getdoc
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from derive.body.library import library, load_geometry
+from derive.body.library import load_geometry
 from derive.command.cli import main
 
 ROOT = Path(__file__).parents[1]
@@ -41,12 +40,6 @@ def test_the_index_leads_to_every_page() -> None:
         assert (ROOT / f"{name}.md").exists(), name
 
 
-def test_the_table_of_bodies_leads_to_their_pages() -> None:
-    text = module("pages")._linked(ROOT / "docs" / "bodies.md", set())
-    for name in library():
-        assert f"[`{name}`](../handbook/{name}.md)" in text, name
-
-
 def test_the_handbook_has_a_page_with_every_formula_of_a_body() -> None:
     from derive.sheet.derivation import derive_sheet
     from tests.derive.handbook.test_handbook import body_of
@@ -62,86 +55,6 @@ def test_the_handbook_has_a_page_with_every_formula_of_a_body() -> None:
     index = "\n".join(pages.handbook([sheet]))
     assert "[wedge](handbook/wedge.md)" in index
     assert "\nhandbook/wedge\n" in index[index.index("{toctree}") :]
-
-
-def test_the_theory_has_a_formula_in_every_gap() -> None:
-    assert "<<" not in module("pages").theory()
-
-
-@pytest.mark.parametrize(("length", "marked"), [(50, []), (51, ["formulas"])])
-def test_a_table_with_a_long_formula_is_marked(length: int, marked: list[str]) -> None:
-    """The style makes it a list on a phone."""
-    pytest.importorskip("sphinx")
-    nodes = pytest.importorskip("docutils.nodes")
-    table = nodes.table("", nodes.entry("", nodes.math("", "x" * length)))
-    module("conf")._tables(None, nodes.container("", table))
-    assert table["classes"] == marked
-
-
-DOCSTRING = """Slip zone, |K_T|/(f K_N) + O(d**2) of `edge`.
-
-    d = K_T/(f*K_N
-        *E_star)
-
-    order 1: d = -int p x dx,
-        for any body
-    order 2: sqrt(s)
-
-Not -1 <= h^2/8.
-
-Parameters
-----------
-a, K_T_ : array_like
-    Edge; E* > 0.
-
-Examples
---------
->>> 2 * 3 ** 1
-6
-""".splitlines()
-
-RESTRUCTURED = r"""Slip zone, \|K\ :sub:`T`\ \|/(f K\ :sub:`N`\ ) + O(d\ :sup:`2`\ ) of ``edge``.
-
-.. code-block:: text
-
-   d = K_T/(f*K_N
-       *E_star)
-
-| order 1: d = −∫ p x dx,
-  for any body
-| order 2: √s
-
-Not −1 ≤ h\ :sup:`2`\ /8.
-
-Parameters
-----------
-a, K_T_ : array_like
-    Edge; E\* > 0.
-
-Examples
---------
->>> 2 * 3 ** 1
-6
-""".splitlines()
-
-
-def test_docstrings_become_restructured_text() -> None:
-    found = module("docstrings").restructured(DOCSTRING)
-    assert [line for line in found if line] == [line for line in RESTRUCTURED if line]
-
-
-def test_prose_in_docstrings_is_no_block_of_code() -> None:
-    """An indented block of code contains formulas in Python's notation only."""
-    restructured = module("docstrings").restructured
-    from generated import wedge
-
-    of_wedge = {
-        name: restructured((getdoc(getattr(wedge, name)) or "").splitlines())
-        for name in wedge.__all__
-    }
-    assert ".. code-block:: text" in of_wedge["load"]
-    for name in ("history", "shear", "steady_cycle", "stick_zone"):
-        assert ".. code-block:: text" not in of_wedge[name], name
 
 
 def test_the_references_describe_all_public_names() -> None:

@@ -74,12 +74,6 @@ def derive(installed: Path, folder: Path, line: str) -> "subprocess.CompletedPro
     return run(installed, folder, "-c", main, *shlex.split(line))
 
 
-def test_it_is_the_wheel(installed: Path, tmp_path: Path) -> None:
-    where = "import derive, generated; print(derive.__file__); print(generated.__file__)"
-    done = run(installed, tmp_path, "-c", where)
-    assert all(line.startswith(str(installed)) for line in done.stdout.splitlines()), done
-
-
 def test_the_readme_s_lines_run_as_printed(installed: Path, tmp_path: Path) -> None:
     """Its commands in their order, then all examples, and the plot, which needs an extra."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -104,34 +104,8 @@ def test_the_error_of_a_bonded_mesh_is_stated(
     assert np.median(stated[:, 1]) < 2 * limit / 100 * true[1]
 
 
-def test_stuck_shear_of_a_known_contact() -> None:
-    """Noise of 1 %, and the error of the edge, which adds to that of K_T."""
-    rng, a, c = np.random.default_rng(2), 1.3, 0.7
-    true = [of(a, c, 1.0, 0.3).left for of in (full_stick.K_T, full_stick.L_T)]
-    x = -a + 0.05 * (np.arange(39) + 0.4)
-    exact = (1.0 / np.pi - 0.075 * (x - (c - a) / 2)) / np.sqrt((a + x) * (c - x))
-    tables = [exact * (1 + 0.01 * rng.standard_normal(len(x))) for _ in range(40)]
-    fits = [fit_stuck_shear(x, dq, -a) for dq in tables]
-    off = np.array([(f.K_T, f.L_T) for f in fits]) - true
-    stated = np.array([(f.K_T_error, f.L_T_error) for f in fits])
-    assert np.all(np.mean(np.abs(off) <= 2 * stated, axis=0) >= 0.9)
-    assert np.all(np.median(stated, axis=0) < (0.1 * true[0], 0.5))
-    assert fit_stuck_shear(x, tables[0], -a, 0.1).K_T_error > 2 * fits[0].K_T_error
-    assert_allclose(fit_stuck_shear(-x, tables[0], a).K_T, fits[0].K_T, rtol=1e-9)
-
-
 X = np.linspace(-1.03, 1.07, 64)
 P = np.sqrt(np.maximum(1 - X**2, 0.0))
-
-
-def test_exact_nodes_give_the_coefficients() -> None:
-    """p = sqrt(s (2 - s)): K_N = sqrt(2), L_N = -K_N/4; the right edge by the other way."""
-    for way, place in ((1, -1.0), (-1, 1.0)):
-        found = fit_pressure(X[::way], P[::way])
-        # that the edge lies in the element is a datum, too, and pulls a little
-        assert_allclose(found.edge, place, atol=1e-4)
-        assert_allclose((found.K_N, found.L_N), (np.sqrt(2), -np.sqrt(2) / 4), rtol=2e-3)
-        assert found.warning == ""
 
 
 COARSE = np.arange(-11, 12) * 0.1 + 0.03

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from generated import flat_rounded, hertz, wedge, wedge_parabola
+from generated import flat_rounded, hertz, wedge_parabola
 from generated.edge import Edge, describe, match
 from generated.hertz import Edges, Regime
 
@@ -76,28 +76,6 @@ def test_both_edges_of_the_same_body_give_its_own_loads() -> None:
     assert_allclose(rig.d, d, rtol=1e-6)
     assert_allclose(rig.second, end, rtol=1e-6)
     assert rig.missed == () and len(rig.met) == 10
-
-
-def test_both_edges_on_another_body() -> None:
-    """A wedge has two numbers free: both K_N, both moves and both K_T are met."""
-    _, edges, _ = prototype(0.2, moving=True)
-    rig = match(edges, wedge, f=F, **STEEL, phi=0.02)
-    assert_allclose(
-        [one[:3] for one in rig.edges], [one[:3] for one in edges], rtol=1e-8, atol=1e-15
-    )
-    had = wedge.K_N(rig.second.a, rig.second.c, **STEEL, phi=0.02)
-    assert_allclose(had, (edges.left.K_N, edges.right.K_N), rtol=1e-8)
-    at = wedge.contact(rig.P - rig.dP, rig.M - rig.dM, **STEEL, phi=0.02)
-    assert_allclose(at, rig.first, rtol=1e-7)
-    assert len(rig.missed) == 4 and all("L_" in words for words in rig.missed)
-
-
-def test_a_body_without_symmetry_keeps_its_moment_at_zero() -> None:
-    law = dict(**STEEL, phi=0.05, R=0.1)
-    rig = match(Edge(2.4e10, 2e6, da=2e-5), wedge_parabola, f=F, **law)
-    for P, at in ((rig.P, rig.second), (rig.P - rig.dP, rig.first)):
-        assert_allclose(wedge_parabola.contact(P, 0.0, **law), at, rtol=1e-6)
-    assert_allclose(rig.second.a - rig.first.a, 2e-5, rtol=1e-9)
 
 
 def test_shear_the_other_way_is_turned() -> None:

@@ -1,6 +1,6 @@
 """The matching at an edge, against the two conditions of a contact, and the runtime's formulas."""
 
-from sympy import Rational, S, expand, symbols
+from sympy import Rational, expand, symbols
 
 from derive.symbols import f
 from derive.theory import edge, slip
@@ -19,10 +19,6 @@ def test_the_slip_zone_is_that_of_a_contact_without_end() -> None:
     assert expand(held - 2 * f * limit) == 0
 
 
-def test_the_width_adds_an_eighth() -> None:
-    assert edge.width_term() * 8 * slip.h == 1
-
-
 def test_the_runtime_obeys_the_condition() -> None:
     """With K_T > 0 and a moving edge, to rounding; R is the polynomial of the stick zone."""
     half = HalfCycle(2.0, 0.7, 0.2, 0.3, 0.05, 0.5)
@@ -34,14 +30,6 @@ def test_the_runtime_obeys_the_condition() -> None:
     assert all(
         abs(one.subs(D, d) - other) < 1e-14 for one, other in zip(R, half.stuck(), strict=True)
     )
-
-
-def test_what_has_grown_grows_again() -> None:
-    """Twice by a half is once by the whole; no move is none."""
-    once = edge.grown((K, L, N), 2 * move)
-    twice = edge.grown(edge.grown((K, L, N), move), move)
-    assert [expand(a - b) for a, b in zip(once, twice, strict=True)] == [0, 0, 0]
-    assert edge.grown((K, L, N), S.Zero) == [K, L, N]
 
 
 def test_what_a_pressure_was_before_its_edge_advanced() -> None:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from generated import edge, hertz, wedge
-from generated.edge import reach, slip_zone
+from generated import wedge
+from generated.edge import slip_zone
 
 SECOND = {"L_N": 4.0, "L_T": 1.0}
 F = 0.5
@@ -58,20 +58,6 @@ def test_it_comes_to_the_bodys_own(given: dict[str, Any], power: int, tension: f
     assert np.log(off[0] / off[1]) / np.log(8) > power - 0.15
 
 
-def test_what_an_edge_alone_leaves_out_by_hand() -> None:
-    """A cylinder: exactly d = d_1 + d_1**2/h + ... with d_1 of the first order (tests/generated).
-
-    L_N = -K/(2 h) and L_T = K_T/(2 h) make 3/8 + 1/4 of that term, the width 1/8; 1/4 are the
-    other edge's, K_T d/(4 h)."""
-    law, d_1 = {"E_star": 1.0, "R": 1.0}, 1e-4  # h = 2: K_N = sqrt(2)/2
-    K_N, K_T = hertz.K_N(1, 1, **law).left, hertz.K_T(1, 1, d_1 * np.pi * F, 0.0).left
-    given = dict(L_N=hertz.L_N(1, 1, **law).left, L_T=K_T / 4)
-    more: list[Any] = [{"order": 1}, {}, {"h": 2.0}]
-    found = [slip_zone(K_N, K_T, f=F, **given, **one).d / d_1 - 1 for one in more]
-    found.append(slip_zone(K_N, K_T * (1 + d_1 / 8), f=F, **given, h=2.0).d / d_1 - 1)
-    assert_allclose(np.array(found) / (d_1 / 2), [0, 5 / 8, 3 / 4, 1], atol=1e-3)
-
-
 def test_where_there_is_none() -> None:
     assert np.all(np.isnan(slip_zone([-1.0, 1.0, 1.0], [0.01, 0.01, np.nan], f=[F, -F, F]).d))
     assert np.isnan(slip_zone(1.0, 0.01, f=F, da=0.5).d)  # the edge runs ahead of slip
@@ -94,13 +80,3 @@ def test_what_is_refused(K_N: Any, given: Any, words: str) -> None:
     kind = TypeError if "number" in words else ValueError
     with pytest.raises(kind, match=words):
         slip_zone(K_N, 0.01, f=F, **given)
-
-
-def test_reach_by_hand() -> None:
-    assert_allclose(reach(2.0, 1.0, L_N=-4.0, L_T=1.0), 0.5, rtol=1e-15)
-    assert_allclose(reach(2.0, 1.0, h=0.25, L_N=-4.0), 0.25, rtol=1e-15)
-    assert np.isnan(reach(2.0, 1.0))
-
-
-def test_what_is_published_is_there() -> None:
-    assert set(edge.__all__) <= set(dir(edge))

@@ -16,8 +16,7 @@ import pytest
 from distributed import Client, LocalCluster
 from numpy.testing import assert_array_equal
 
-from derive.codegen.publish import package_files, publish
-from generated import hertz, hyperbola, wedge
+from generated import hyperbola, wedge
 from generated.runtime.kernels import COMPILING
 from tests.runtime.test_cycle import cases, each
 
@@ -28,16 +27,7 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def packages(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """A directory on the path of this process and of the workers."""
-    folder = tmp_path_factory.mktemp("packages")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(folder))
-        yield folder
-
-
-@pytest.fixture(scope="module")
-def client(packages: Path) -> Iterator[Client]:
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Client]:
     with (
         LocalCluster(
             n_workers=1,
@@ -45,7 +35,7 @@ def client(packages: Path) -> Iterator[Client]:
             host="127.0.0.1",
             dashboard_address="127.0.0.1:0",
             silence_logs=logging.CRITICAL,
-            local_directory=str(packages),
+            local_directory=str(tmp_path_factory.mktemp("workers")),
         ) as cluster,
         Client(cluster) as client,
     ):
@@ -64,18 +54,6 @@ def test_processes_give_what_numpy_gives(client: Client, name: str) -> None:
     ):
         assert value.dtype == known.dtype
         np.testing.assert_allclose(value, known, rtol=1e-12, atol=1e-15)
-
-
-def test_a_package_of_one_s_own(client: Client, packages: Path) -> None:
-    """Found by its name, as long as the workers can import it."""
-    texts = ((ROOT / "generated" / f"{name}.py").read_text() for name in ("hertz", "full_stick"))
-    modules = dict(zip(("roller", "full_stick"), texts, strict=True))
-    publish(package_files(modules), packages / "bodies_on_workers")
-    importlib.invalidate_caches()
-    roller = importlib.import_module("bodies_on_workers.roller")
-    P = np.linspace(1, 2, 6)
-    state = roller.contact(da.from_array(P, chunks=2), 0.1, E_star=1.0, R=1.0)
-    np.testing.assert_allclose(state.a.compute(), hertz.contact(P, 0.1, E_star=1.0, R=1.0).a)
 
 
 # ------------------------------------------------------------------ the Monte Carlo
@@ -122,15 +100,6 @@ def test_the_monte_carlo_counts_what_numpy_counts(
     assert_array_equal(rows[:, 3], wanted.right)
     assert done.stdout.splitlines()[-len(lines) :] == lines
     assert "100%" in done.stdout
-
-
-def test_the_quantiles_are_those_of_the_samples(monte_carlo: Any) -> None:
-    samples = 100_000
-    P, M, f = (monte_carlo.drawn(name, 0, 0, samples) for name in monte_carlo.SCATTER)
-    left, _, _ = monte_carlo.slip_zones(P, M, f)
-    found = monte_carlo.quantiles(expected(monte_carlo, samples).left)
-    width = monte_carlo.LONGEST / monte_carlo.BINS
-    assert np.all(np.abs(found - np.nanquantile(left, monte_carlo.QUANTILES)) < width)
 
 
 @pytest.mark.parametrize(

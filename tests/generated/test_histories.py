@@ -34,16 +34,6 @@ def test_dask_arrays_chunk_by_chunk(call: Any, x: Any) -> None:
         assert_allclose(here.compute(scheduler="synchronous"), there, err_msg=name)
 
 
-def test_dask_arrays_of_constants() -> None:
-    f = da.from_array(np.array([[0.4], [0.5]]), chunks=1)
-    given = {name: value for name, value in FRICTION.items() if name != "f"}
-    lazy = hertz.history(1e6, 0.0, Q, 0.0, f=f, **given)
-    for at, friction in enumerate((0.4, 0.5)):
-        plain = hertz.history(1e6, 0.0, Q, 0.0, f=friction, **given)
-        assert_allclose(lazy.m[at].compute(scheduler="synchronous"), plain.m)
-        assert np.all(plain.regime == Regime.MODERATE)
-
-
 def test_what_cannot_be_lazy_is_refused_at_the_call() -> None:
     lazy = da.from_array(P, chunks=(3, 2))
     with pytest.raises(ValueError, match=r"P\.rechunk"):
@@ -67,13 +57,6 @@ def test_friction_s_work_is_that_of_the_rainflow_cycles() -> None:
     pairs = hertz.history(1e6, 0.0, ends, 100 * ends, **FRICTION)
     branches = np.diff(pairs.work, axis=-1)[:, 0]
     assert_allclose(told.work[-1] - told.work[0], 2 * counts @ branches, rtol=1e-9)
-
-
-def test_dask_arrays_without_axes() -> None:
-    """One instant."""
-    found = hertz.history(da.from_array(1e6), 0.0, da.from_array(1e5), 0.0, **FRICTION)
-    wanted = hertz.history(1e6, 0.0, [1e5], 0.0, **FRICTION)
-    assert_allclose(found.m.compute(), wanted.m)
 
 
 def test_exact_work_where_a_corner_slips() -> None:

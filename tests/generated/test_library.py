@@ -5,15 +5,12 @@ import importlib
 from types import ModuleType
 from typing import Any
 
-import mpmath
 import numpy as np
 import pytest
-from mpmath import mpf
 from numpy.testing import assert_allclose
 
 from derive.body.library import load_geometry
 from derive.reading.units import parse_unit
-from generated import full_stick, two_radii
 
 pytestmark = pytest.mark.slow
 
@@ -116,17 +113,6 @@ def test_pressure_next_to_an_edge_is_its_series(name: str) -> None:
         assert np.all(np.abs(L * s) <= 1e-3 * K)
 
 
-def test_full_stick_next_to_an_edge_is_singular() -> None:
-    """dq = [dQ/pi - (dsigma/4)(x - mid)]/sqrt((a + x)(c - x)) ~ K_T/sqrt(s)."""
-    (a, c), rng = states("wedge"), np.random.default_rng(7)
-    h = a + c
-    shear, tension = h * rng.uniform(0.1, 10, COUNT), rng.uniform(-10, 10, COUNT)
-    K_T, s = full_stick.K_T(a, c, shear, tension), h * 2.0**-40
-    for from_middle, K in ((s - h / 2, K_T.left), (h / 2 - s, K_T.right)):
-        change = (shear / np.pi - tension / 4 * from_middle) / np.sqrt(s * (h - s))
-        assert np.all(np.abs(change * np.sqrt(s) - K) <= 1e-10 * np.max(np.abs(K_T), axis=0))
-
-
 # ------------------------------------------------------------------ the contact from loads
 
 
@@ -171,13 +157,30 @@ def test_contacts_around_a_kink_are_found_again(name: str, side: int) -> None:
     assert np.all(np.abs(by_moment.a - a) <= 100 * off * (a + c))
 
 
-def test_a_hopeless_load_has_no_contact() -> None:
-    """More than the arc carries closer than 1e-6 to its ends, a centre beyond them, lengths past
-    1e75 m."""
-    arc, flat = module("circular_arc"), module("flat_rounded")
-    assert np.isnan(arc.contact([1e12, 1e4], [0.0, 2e3], E_star=1e11, R=0.1).a).all()
-    own = {"E_star": 1e11, **AROUND["flat_rounded"]}
-    assert np.isnan(flat.contact([1e300, 1e5], [1.0, 1e300], **own).a).all()
+def test_a_contact_hangs_on_one_shoulder() -> None:
+    """A cylinder alone then: centre b + alpha R away, P = pi E* h**2/(16 R)."""
+    P, centre, own = 0.01, np.array([1.5, -1.5, 40.0]), {"R": 1.0, "b": 1.0}
+    a, c, alpha = module("flat_rounded").contact(P, -P * centre, E_star=1.0, **own)
+    assert np.all((c < -1) | (a < -1))
+    assert_allclose((c - a) / 2, centre, rtol=1e-12)
+    assert_allclose(a + c, 4 * np.sqrt(P / np.pi), rtol=1e-10)
+    assert_allclose(alpha, -np.sign(centre) * (np.abs(centre) - 1), rtol=1e-12)
+
+
+def test_where_there_is_no_contact() -> None:
+    """No load, no number, lengths past 1e75 m, a tilt beyond the flanks, and a centre or a load
+    beyond the ends of an arc."""
+    bad, inf, nan = [0.0, -1.0, np.inf, np.nan], np.inf, np.nan
+    for name in ("flat_rounded", "hyperbola", "circular_arc"):
+        body, own = module(name), {"E_star": 1.0, **OWN[name]}
+        for solve in (body.contact, body.contact_at_tilt):
+            assert np.all(np.isnan(solve(bad, 0.05, **own)))
+            assert np.all(np.isnan(solve(1e-3, [inf, nan], **own)))
+    flat, bent, arc = map(module, ("flat_rounded", "rounded_wedge", "circular_arc"))
+    assert np.all(np.isnan(flat.contact([1e300, 1e5], [0.0, 1e300], E_star=1.0, R=1.0, b=1.0).a))
+    given = {"E_star": 1.0, "phi": 0.02, "b": 1e-3}
+    assert np.all(np.isnan(bent.contact_at_tilt(1.0, [0.02, -0.03, 1e9], **given).a))
+    assert np.all(np.isnan(arc.contact([1e12, 1e4], [0.0, 2e3], E_star=1e11, R=0.1).a))
 
 
 def test_an_arc_pressed_in_almost_to_its_ends() -> None:
@@ -190,8 +193,6 @@ def test_an_arc_pressed_in_almost_to_its_ends() -> None:
         found = body.contact(load, moment, **given)
         assert_allclose(found.a, a, rtol=1e-12)
         assert_allclose(found.c, c + 0 * a, rtol=1e-12)
-        mirrored = body.contact(load, -moment, **given)
-        assert_allclose(mirrored.c, a, rtol=1e-12)
 
 
 @pytest.mark.parametrize("beyond", [1e-5, 6.3e-8])
@@ -217,16 +218,6 @@ def test_a_tilt_that_hangs_on_its_own_rounding_has_no_contact() -> None:
     assert np.isnan(found.a[0])
     off = body.load(found.a[1], found.c[1], **given) / 1e-18 - 1
     assert abs(off) <= 1e-9 + 16 * rounding(body, found.a[1], found.c[1], **given)
-
-
-def test_a_hyperbola_tilted_almost_as_far_as_its_flanks() -> None:
-    """phi (1 - 1e-3 to 1e-9) and loads over twelve decades, the load asked back."""
-    own = {"b": 0.01, "phi": 0.1}
-    body, given = module("hyperbola"), {"E_star": 1e11, **own}
-    load, gap = np.meshgrid(10.0 ** np.arange(0.0, 13.0, 2.0), 10.0 ** -np.arange(3.0, 9.0))
-    found = body.contact_at_tilt(load, 0.1 * (1 - gap), **given)
-    off = np.abs(body.load(found.a, found.c, **given) / load - 1)
-    assert np.all(off <= 1e-9 + 16 * rounding(body, found.a, found.c, **given))
 
 
 @EVERY
@@ -281,34 +272,3 @@ def test_all_lengths_larger_by_one_factor(name: str) -> None:
     there = body.pressure(by * x, by * a, by * c, **large)
     assert_allclose(there, body.pressure(x, a, c, **small), rtol=1e-13)
     assert_allclose(body.tilt(by * a, by * c, **larger), body.tilt(a, c, **own), rtol=1e-12)
-
-
-@pytest.mark.parametrize("a", [1.5e-15, 1e-8, 1e-3])
-def test_an_edge_beside_a_change_of_radius_keeps_its_digits(a: float) -> None:
-    """K_left = (1/(pi sqrt h)) int g'' sqrt((c - s)/(a + s)) ds, and with s + a = h sin(t)**2 each
-    piece of constant g'' gives g'' h (t + sin(2 t)/2): an angle T = asin sqrt(a/h) of 1/R_1, the
-    rest of 1/R_2."""
-    R_1, R_2, c = 1.0, 3.0, 1.25
-    with mpmath.workdps(40):
-        h = mpf(a) + c
-        T = mpmath.asin(mpmath.sqrt(a / h))
-        inner = T + mpmath.sin(2 * T) / 2
-        exact = mpmath.sqrt(h) / mpmath.pi * (inner / R_1 + (mpmath.pi / 2 - inner) / R_2)
-    found = two_radii.K_N(a, c, E_star=1.0, R_1=R_1, R_2=R_2)
-    assert abs(float(found.left) / float(exact) - 1) < 1e-14
-
-
-def test_a_narrow_flat_in_a_wide_contact_keeps_the_digits_of_the_second_coefficient() -> None:
-    """Without the flat -1/(4 sqrt(h)); the flat takes int k ds/pi away over its width, k of the
-    defining integral.  Both halves of the parabola are ten thousand times as large."""
-    a, c = 1e4, 1e12
-    found = module("flat_rounded").L_N(a, c, E_star=1.0, R=1.0, b=1.0)
-    with mpmath.workdps(40):
-        h = mpf(a) + mpf(c)
-
-        def taken(s: mpf) -> mpf:
-            r = mpmath.sqrt((c - s) / (a + s))
-            return r * (3 + 2 * r**2) / (6 * h ** mpf(1.5))
-
-        exact = -1 / (4 * mpmath.sqrt(h)) - mpmath.quad(taken, [-1, 1]) / mpmath.pi
-        assert abs(mpf(float(found.left)) / exact - 1) < 1e-15

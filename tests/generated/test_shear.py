@@ -1,10 +1,11 @@
-"""The change of shear, the shear itself and the slip range: by hand, within friction, the gap.
+"""The change of shear over a half-cycle, the slip range, and the shear itself.
 
-Strain and force of dq are in tests/runtime/test_shear.py, mirrors in test_stick.py.
+By the singular integral equation, by hand, within friction, and beside the independent solver.
 """
 
 import importlib
-from typing import Any
+import math
+from typing import Any, NamedTuple
 
 import mpmath
 import numpy as np
@@ -14,10 +15,10 @@ from hypothesis import strategies as st
 from mpmath import mpf
 from numpy.testing import assert_allclose
 
-from generated import flat_sloped, hertz, wedge
+from generated import flat_rounded, flat_sloped, hertz, wedge
 from generated.runtime.types import Contact, Regime
-from tests.accuracy.definitions import formula
-from tests.benchmarks.series import BODIES, E_STAR, F
+from tests.measure.accuracy.definitions import formula
+from tests.measure.benchmarks.series import BODIES, E_STAR, F
 from tests.reference.cases import HERTZ, HERTZ_LOAD
 from tests.reference.kernel import Surface
 from tests.reference.loads import State
@@ -25,17 +26,117 @@ from tests.reference.mesh import graded
 from tests.reference.solver import Case as SolverCase
 from tests.reference.solver import level
 
-CYCLES = {"moderate": 0.6, "large": 2.5, "large, compression": -3.0}
+TENSIONS = {"moderate": 0.6, "large": 2.5, "large, compression": -3.0}
 """Tension in parts of 8 dQ/(pi h)."""
 ONES = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
-CLOSED = ("wedge", "hertz", "two_radii", "flat_rounded")
-"""Bodies whose pressure is a formula; where it is integrated each place takes a millisecond."""
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(150)
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(100)
+
+class Cycle(NamedTuple):
+    """A body whose parameters are 1, both contacts, dQ and dsigma."""
+
+    body: Any
+    kinks: tuple[float, ...]
+    first: tuple[float, float]
+    second: tuple[float, float]
+    dQ: float
+    dsigma: float
+
+    @property
+    def loads(self) -> Any:
+        """Arguments of the functions of a half-cycle."""
+        return Contact(*self.first, 0.0), Contact(*self.second, 0.0), self.dQ, self.dsigma
+
+    @property
+    def law(self) -> dict[str, float]:
+        """All constants."""
+        own = {hertz: ("R",), wedge: ("phi",), flat_rounded: ("R", "b")}[self.body]
+        return {"f": 0.5, "E_star": 1.0, **dict.fromkeys(own, 1.0)}
+
+    def change(self, x: Any) -> Any:
+        """dq at x."""
+        return self.body.shear_change(x, *self.loads, **self.law)
+
+    def slip(self, x: Any) -> Any:
+        """The slip range at x."""
+        return self.body.slip_range(x, *self.loads, **self.law)
+
+    @property
+    def zone(self) -> Any:
+        """m, n and the regime."""
+        return self.body.stick_zone(*self.loads, **self.law)
+
+
+B = (-1.0, 1.0)
+CYCLES = {
+    "cylinder, moderate": Cycle(hertz, (), (1.2, 1.0), (1.2, 1.0), 0.3, 0.1),
+    "cylinder, moderate, varying": Cycle(hertz, (), (1.2, 1.0), (1.15, 1.05), 0.3, -0.1),
+    "cylinder, large": Cycle(hertz, (), (1.2, 1.0), (1.2, 1.0), 0.3, 0.8),
+    "wedge, moderate": Cycle(wedge, (0.0,), (1.3, 0.9), (1.3, 0.9), 0.2, 0.1),
+    "wedge, large": Cycle(wedge, (0.0,), (1.3, 0.9), (1.3, 0.9), 0.2, -0.5),
+    "wedge, large, varying": Cycle(wedge, (0.0,), (1.3, 0.9), (1.26, 0.93), 0.2, 0.6),
+    "flat, large": Cycle(flat_rounded, B, (1.6, 2.0), (1.6, 2.0), 0.2, 0.4),
+    "flat, slip past kinks": Cycle(flat_rounded, B, (1.38, 1.17), (1.38, 1.17), 0.07, 0.2),
+}
+EACH = pytest.mark.parametrize("of", CYCLES.values(), ids=CYCLES)
+
+
+def over(integrand: Any, *cuts: float, kinks: tuple[float, ...] = (-0.5, 0.0, 0.5)) -> float:
+    """The integral between the outermost cuts, by Gauss-Legendre between them and the kinks;
+    x = start + length sin(t)**2."""
+    ends = sorted({*cuts, *(k for k in kinks if min(cuts) < k < max(cuts))})
+    starts, lengths = np.array(ends[:-1])[:, None], np.diff(ends)[:, None]
+    t = (NODES + 1) * np.pi / 4
+    x, weight = starts + lengths * np.sin(t) ** 2, lengths * np.sin(2 * t) * WEIGHTS * np.pi / 4
+    return float(np.sum(weight * integrand(x.ravel()).reshape(x.shape)))
+
+
+def ends_of(of: Cycle) -> list[float]:
+    """Edges of both contacts and ends of the stick zone."""
+    m, n, _ = of.zone
+    return [-of.first[0], -of.second[0], -float(m), float(n), of.first[1], of.second[1]]
+
+
+def strain(of: Cycle, x: float) -> float:
+    """(1/pi) PV int dq/(x - xi) dxi - dsigma/4."""
+    here, ends = float(of.change(x)), ends_of(of)
+    total = over(lambda xi: (of.change(xi) - here) / (x - xi), *ends, x, kinks=of.kinks)
+    total += here * math.log((x - min(ends)) / (max(ends) - x))
+    return total / math.pi - of.dsigma / 4
+
+
+@EACH
+def test_the_change_carries_the_shear_and_what_sticks_is_strained_by_tension_alone(
+    of: Cycle,
+) -> None:
+    m, n, _ = of.zone
+    assert over(of.change, *ends_of(of), kinks=of.kinks) == pytest.approx(of.dQ, rel=1e-7)
+    for part in (0.03, 0.31, 0.87):
+        assert strain(of, -m + part * (m + n)) == pytest.approx(0, abs=2e-6 * abs(of.dsigma))
+
+
+@EACH
+def test_the_slip_range_is_the_integral_of_the_strain(of: Cycle) -> None:
+    """It grows outward from nothing at the stick zone; where there is no contact it is NaN."""
+    m, n, _ = of.zone
+    assert np.all(of.slip(np.linspace(-m, n, 5)) == 0)
+    for side in (-1, 1):
+        end, edge = (n, 1) if side > 0 else (m, 0)
+        reach = min(of.first[edge], of.second[edge])
+        x = side * (end + (reach - end) * np.linspace(0, 1, 30) ** 2)
+        x[[0, -1]] = side * end, side * reach
+        found = of.slip(x)
+        assert found[0] == 0 and np.all(np.diff(found) > 0)
+        assert np.isnan(of.slip(side * (reach + 1e-9)))
+        for part in (0.23, 0.8):
+            x, step = side * (end + part * (reach - end)), 1e-3 * (reach - end)
+            slips = of.slip(x + step * np.array([-2, -1, 1, 2]))
+            rate = (slips[0] - 8 * slips[1] + 8 * slips[2] - slips[3]) / (12 * step)
+            assert side * rate == pytest.approx(2 * abs(strain(of, x)), rel=3e-5)
 
 
 class Case:
-    """One body in one cycle."""
+    """One body of the series in one cycle; tension in parts of 8 dQ/(pi h)."""
 
     def __init__(self, name: str, tension: float) -> None:
         own, a, c = BODIES[name]
@@ -52,47 +153,6 @@ class Case:
         return self.body.shear_change(x, *self.cycle, **self.law)
 
 
-def over(integrand: Any, *cuts: float) -> float:
-    """The integral between the outermost cuts, by Gauss-Legendre between them and the bodies'
-    kinks; x = start + length sin(t)**2."""
-    ends = sorted({*cuts, *(k for k in (-0.5, 0.0, 0.5) if min(cuts) < k < max(cuts))})
-    starts, lengths = np.array(ends[:-1])[:, None], np.diff(ends)[:, None]
-    t = (NODES + 1) * np.pi / 4
-    x, weight = starts + lengths * np.sin(t) ** 2, lengths * np.sin(2 * t) * WEIGHTS * np.pi / 4
-    return float(np.sum(weight * integrand(x.ravel()).reshape(x.shape)))
-
-
-@pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded"])
-def test_slip_of_moderate_tension_is_the_gap_beside_the_patch(name: str) -> None:
-    """2 f times the gap that the body leaves at the patch's load and tilt; the gap opens with the
-    slope g' + alpha less the pressure's strain."""
-    case = Case(name, 0.6)
-    m, n = case.zone.m, case.zone.n
-    law = {"E_star": E_STAR, **case.own}
-    alpha = case.body.tilt(m, n, **case.own)
-    g = {
-        "hertz": lambda x: x**2 / 2,
-        "wedge": lambda x: 0.125 * abs(x),
-        "flat_rounded": lambda x: max(abs(x) - 0.5, 0.0) ** 2 / 2,
-    }[name]
-
-    def pressed(x: float, end: float) -> float:
-        """int_end^x of the pressure's strain: that of 1/(x - s) is a logarithm."""
-
-        def weighted(s: Any) -> Any:
-            return case.body.pressure(s, m, n, **law) * np.log((x - s) / (end - s))
-
-        return 2 / (np.pi * E_STAR) * over(weighted, -m, n)
-
-    for end, edge in ((-m, -1.5), (n, 1.0)):
-        for part in (0.5, 1.0):
-            x = end + part * (edge - end)
-            gap = g(x) - g(end) + alpha * (x - end)
-            gap -= pressed(x, end)
-            slip = case.body.slip_range(x, *case.cycle, **case.law)
-            assert_allclose(slip, 2 * F * gap, rtol=1e-6)
-
-
 def test_outside_and_unknown() -> None:
     case = Case("wedge", 0.6)
     assert case.change(2.0) == 0 and case.change(-2.0) == 0
@@ -107,6 +167,10 @@ def test_outside_and_unknown() -> None:
     assert np.isnan(wedge.slip_range(0.995, *overtaken, **ONES))  # it slips back first
     none = wedge.shear_change(np.array([-1.0, 0.5]), case.here, case.here, 0.0, 0.0, **case.law)
     assert np.all(none == 0)
+    still = Contact(1.2, 1.0, 0.0), Contact(1.3, 1.1, 0.0), 0.0, 0.0
+    cylinder = {"f": 0.5, "E_star": 1.0, "R": 1.0}
+    assert np.isnan(hertz.shear_change(0.1, *still, **cylinder))  # of loads that vary
+    assert hertz.slip_range(0.1, *still, **cylinder) == 0
 
 
 # ------------------------------------------------------------------ the shear itself
@@ -127,9 +191,8 @@ class Loop:
         return self.body.shear(x, self.here, self.Q, self.sigma, **self.case.law, **fall)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", CLOSED)
-@pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
+@pytest.mark.parametrize("name", ["wedge", "two_radii", "flat_rounded"])
+@pytest.mark.parametrize("tension", TENSIONS.values(), ids=TENSIONS)
 @pytest.mark.parametrize("part", [0.0, 0.5])
 def test_shear_carries_its_load_within_friction(name: str, tension: float, part: float) -> None:
     loop = Loop(name, tension)
@@ -195,29 +258,16 @@ def test_no_fall_leads_beyond_friction(body: Any) -> None:
     """Any rise, and any fall after it: what would drive on a place that slipped is not known."""
     rng = np.random.default_rng(12)
     own = {"phi": 0.125} if body is wedge else {"R": 1.0}
-    a, c = 1.0, rng.uniform(0.3, 3.0, 400)
+    a, c = 1.0, rng.uniform(0.3, 3.0, 150)
     friction, here = F * body.load(a, c, E_star=1.0, **own), Contact(a, c, np.nan)
-    Q, sigma = rng.uniform(0, 0.99, 400) * friction, rng.uniform(-8, 8, 400) * friction / (a + c)
-    down = {"dQ": 2 * rng.uniform(size=400) * Q, "dsigma": 2 * rng.uniform(size=400) * sigma}
-    x = -a + np.linspace(0.01, 0.99, 41)[:, None] * (a + c)
+    Q, sigma = rng.uniform(0, 0.99, 150) * friction, rng.uniform(-8, 8, 150) * friction / (a + c)
+    down = {"dQ": 2 * rng.uniform(size=150) * Q, "dsigma": 2 * rng.uniform(size=150) * sigma}
+    x = -a + np.linspace(0.01, 0.99, 21)[:, None] * (a + c)
     q = body.shear(x, here, Q, sigma, f=F, E_star=1.0, **own, **down)
     bound = F * body.pressure(x, a, c, E_star=1.0, **own)
     known = np.isfinite(q)
-    assert np.count_nonzero(known.any(axis=0)) > 80
+    assert np.count_nonzero(known.any(axis=0)) > 30
     assert np.all(np.abs(q[known]) <= (1 + 1e-7) * bound[known])
-
-
-def test_a_fall_of_tension_alone_drives_on_what_slipped() -> None:
-    """A wedge under large tension: (2 Q, sigma) is large tension by itself, and slips nowhere else.
-
-    Its shear would reach 1.3 f p beside the left edge."""
-    here, own = Contact(1.0, 2.0, np.nan), {"E_star": 1.0, "phi": 0.125}
-    P = wedge.load(1.0, 2.0, **own)
-    Q, sigma = 0.15 * P, P / 3
-    x = np.linspace(-0.9, 1.9, 15)
-    fall = {"dQ": 2 * Q, "dsigma": sigma}
-    assert np.all(np.isfinite(wedge.shear(x, here, Q, sigma, f=0.5, **own)))
-    assert np.all(np.isnan(wedge.shear(x, here, Q, sigma, f=0.5, **own, **fall)))
 
 
 FIFTHS = [-1.02, -1, -0.9, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 0.9, 1, 1.02]
@@ -232,7 +282,7 @@ def test_the_independent_solver_finds_the_same_shear(tension: float, fall: float
     sigma = tension * 8 * Q / (np.pi * 2 * R)
     upper, lower = (State(HERTZ_LOAD, 0.0, v * Q, v * sigma) for v in (1.0, 1.0 - fall))
     off = []
-    for count in (24, 48):
+    for count in (12, 24):
         mesh = Surface(graded(FIFTHS, count))
         found = level(SolverCase(HERTZ.body, F, upper, lower), mesh, 4)
         law = {"f": F, "E_star": HERTZ.body.E_star, "R": R}
@@ -240,12 +290,11 @@ def test_the_independent_solver_finds_the_same_shear(tension: float, fall: float
             down = {"dQ": part * Q, "dsigma": part * sigma}
             exact = hertz.shear(found.x, Contact(1.0, 1.0, 0.0), Q, sigma, **law, **down)
             off.append(np.mean(np.abs(q - exact)) / np.max(np.abs(exact)))
-    assert np.all(np.array(off[2:]) < 5e-4)
+    assert np.all(np.array(off[2:]) < 2e-3)
     assert np.all(np.array(off[2:]) < np.array(off[:2]) / 2.5)
 
 
-@pytest.mark.parametrize("gap", [1e-10, 1e-7])
-def test_at_a_corner_beside_the_end_of_the_stick_zone(gap: float) -> None:
+def test_at_a_corner_beside_the_end_of_the_stick_zone(gap: float = 1e-7) -> None:
     """dq = 2 f (p - p_s), both infinite there; the formulas with 400 digits, 1e-150 before it."""
     law, friction, corner = {"E_star": 2.0, "phi": 0.1, "b": 0.3}, 0.5, 0.3
     patch = 0.8, corner + gap
@@ -285,16 +334,3 @@ def test_the_shear_of_short_slip_zones_by_hand(share: float, place: float) -> No
     wanted = friction * law["E_star"] / law["R"] * by / (np.sqrt(outer) + np.sqrt(inner))
     beside_the_end = 1e-14 / max(1e-300, abs(outer - share * half**2)) ** 0.5
     assert_allclose(found, wanted, rtol=1e-14 / share + beside_the_end)
-
-
-@pytest.mark.parametrize("share", [1e-8, 1e-6])
-@pytest.mark.parametrize("x", [-0.9, 0.3])
-def test_tiny_slip_zones_of_large_tension_by_hand(share: float, x: float) -> None:
-    """Where next to nothing slips dq is that of full stick, (dQ - pi dsigma x/4)/(pi w(x)) in a
-    contact with a = c = 1; the zones' lengths are differences, known to 1e-16 of the contact."""
-    here, law = Contact(1.0, 1.0, 0.0), {"f": 0.4, "E_star": 1.0, "R": 1.0}
-    dQ, dsigma = share, 8 * share  # pi h dsigma/8 = 2 pi dQ
-    assert hertz.stick_zone(here, here, dQ, dsigma, **law).regime == Regime.LARGE
-    found = hertz.shear_change(x, here, here, dQ, dsigma, **law)
-    wanted = (dQ - np.pi * dsigma * x / 4) / (np.pi * np.sqrt((1 - x) * (1 + x)))
-    assert_allclose(found, wanted, rtol=1e-15 / share + 1e3 * share)

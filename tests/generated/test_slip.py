@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from generated import hertz, wedge
 from generated.runtime.types import Contact, Regime
-from tests.benchmarks import series
+from tests.measure.benchmarks import series
 
 F, E_STAR = 0.5, 1.25
 WEDGE = {"f": F, "E_star": E_STAR, "phi": 0.25}
@@ -65,6 +65,32 @@ def test_varying_loads_at_every_order(tension: float, dc: float) -> None:
         errors.append([abs(d.left - (1.5 - zone.m)) + abs(d.right - (1 - zone.n)) for d in found])
     powers = np.log(np.array(errors[0]) / errors[1]) / np.log(8)
     assert_allclose(powers, [2, 3], atol=0.25)
+
+
+def test_what_is_not_known() -> None:
+    """What slides, where none slips, and where no part sticks to the first order."""
+    zones = [
+        wedge.slip_zones(1.5, 1.0, dQ, dsigma, **WEDGE, da=da, order=order)
+        for order in (1, 2)
+        for dQ, dsigma, da in (
+            (2 * F * load(1.5, 1.0), 0.0, 0.0),  # slides
+            (-0.1, 0.0, 0.0),
+            (np.nan, 0.0, 0.0),
+            (0.01, np.inf, 0.0),
+            (0.001, 0.0, 0.5),  # the edge runs ahead of slip
+            (0.001, 0.0, 3.0),  # no contact there
+            (0.01, 30.0, 0.0),
+        )
+    ]
+    assert np.all(np.isnan(zones))
+    still = wedge.slip_zones(1.5, 1.0, 0.0, 0.0, **WEDGE, order=2)
+    assert np.all(np.array(still) == 0)
+
+
+def test_both_ends_of_a_half_cycle_see_one_stick_zone() -> None:
+    now = wedge.slip_zones(1.5, 1.0, 0.01, 0.002, **WEDGE, da=0.01, dc=0.02, order=2)
+    then = wedge.slip_zones(1.49, 0.98, 0.01, 0.002, **WEDGE, da=-0.01, dc=-0.02, order=2)
+    assert_allclose((1.5 - now.left, 1.0 - now.right), (1.49 - then.left, 0.98 - then.right))
 
 
 @pytest.mark.parametrize("share", [1e-4, 1e-3])

@@ -85,40 +85,6 @@ def loads(name: str, *edges: tuple[float, float]) -> Any:
     return [module(name).load(a, c, **law(name)) for a, c in edges]
 
 
-@pytest.mark.enough("wedge", "two_radii")
-@pytest.mark.parametrize(
-    "name",
-    ["wedge", "hertz", "flat_rounded", "unequal_wedge", "two_radii", "wedge_parabola"],
-)
-def test_moderate_tension_meets_both_conditions(name: str) -> None:
-    """P and M vary.  The patch is solved for in 30 digits, put into both conditions to 25, and
-    the generated zone is it."""
-    with mpmath.workdps(32):
-        body, own = sheet(name), law(name)
-        of = partial(evaluated, body, **own)
-        ends = [{"a": mpf(a), "c": mpf(c)} for a, c in (FIRST, SECOND)]
-        geometry = OWN[name]
-        tilt = sum(evaluated(body, "tilt", **geometry, **end) for end in ends) / 2
-        load = sum(of("load", **end) for end in ends) / 2
-        shear = 2 * F * float(load) * 0.25
-        tension = 2.0 * shear / 3
-        aim = load - mpf(shear) / (2 * F), tilt - mpf(tension) / (4 * F * E_STAR)
-
-        def off(m: mpf, n: mpf) -> tuple[mpf, mpf]:
-            return of("load", a=m, c=n) - aim[0], evaluated(
-                body, "tilt", **geometry, a=m, c=n
-            ) - aim[1]
-
-        zone = module(name).stick_zone(
-            Contact(*FIRST, 0.0), Contact(*SECOND, 0.0), shear, tension, f=F, **law(name)
-        )
-        assert zone.regime == Regime.MODERATE
-        m, n = mpmath.findroot(off, (mpf(zone.m) * 0.999, mpf(zone.n) * 1.001), tol=1e-56)
-        assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=2e-14)
-        whole = cycle(name, FIRST, SECOND, shear, tension, (1, 1))
-        assert max(map(abs, whole.residuals(m, n))) < mpf(10) ** -25 * shear
-
-
 def missed(whole: Cycle, m: mpf, n: mpf) -> Any:
     """How far both ends lie off those that meet the conditions: Newton's step."""
     step = mpf(10) ** -9
@@ -127,17 +93,22 @@ def missed(whole: Cycle, m: mpf, n: mpf) -> Any:
     return mpmath.lu_solve(mpmath.matrix(rates), mpmath.matrix(here))
 
 
-@pytest.mark.enough("hertz-edges0*", "wedge-edges3*", "unequal_wedge-*", "wedge-edges11-*")
+STILL, VARY = [(1.5, 1.25)] * 2, [FIRST, SECOND]
+
+
+@pytest.mark.enough("hertz-edges3*", "wedge-edges4*", "two_radii-*", "*edges11-*", "*edges14-*")
 @pytest.mark.parametrize(
     ("name", "edges", "part", "tension"),
     [
-        ("hertz", [(1.5, 1.25)] * 2, 0.25, 1.5),
-        ("hertz", [FIRST, SECOND], 0.25, -2.5),
-        ("wedge", [(1.5, 1.25)] * 2, 0.25, 1.75),
+        ("wedge", VARY, 0.25, 0.75),
+        ("two_radii", VARY, 0.25, 0.75),
+        ("flat_rounded", VARY, 0.25, -0.75),
+        ("hertz", STILL, 0.25, 1.5),
+        ("wedge", VARY, 0.25, 2.5),
+        ("hertz", VARY, 0.25, -2.5),
         ("wedge", [(2.0, 0.75)] * 2, 0.25, -3.0),
-        ("wedge", [FIRST, SECOND], 0.25, 2.5),
         ("unequal_wedge", [(1.0, 1.5)] * 2, 0.25, 2.0),
-        ("quartic", [FIRST, SECOND], 0.25, 2.0),
+        ("quartic", VARY, 0.25, 2.0),
         ("wedge_parabola", [(1.0, 1.25)] * 2, 0.25, 2.0),
         ("flat_rounded", [(0.505, 0.5075)] * 2, 0.25, 2.0),
         ("rounded_wedge", [(0.50001, 1.25)] * 2, 0.25, -1.75),
@@ -147,7 +118,7 @@ def missed(whole: Cycle, m: mpf, n: mpf) -> Any:
         ("wedge", [(6.22, 2.51)] * 2, 0.74, -1.775),
     ],
 )
-def test_large_tension_meets_both_conditions(
+def test_a_stick_zone_meets_both_conditions(
     name: str, edges: list[tuple[float, float]], part: float, tension: float
 ) -> None:
     """`part` of 2 f P; `tension` in parts of 8 dQ/(pi h), the threshold of constant loads."""
@@ -155,11 +126,13 @@ def test_large_tension_meets_both_conditions(
     dsigma = tension * 8 * shear / (np.pi * sum(edges[0]))
     ends = (Contact(*each, 0.0) for each in edges)
     zone = module(name).stick_zone(*ends, shear, dsigma, f=F, **law(name))
-    assert zone.regime == Regime.LARGE
+    large = abs(tension) > 1
+    assert zone.regime == (Regime.LARGE if large else Regime.MODERATE)
     assert (min(zone.m, zone.n) < 0.01 * sum(edges[0])) == (part > 0.5)
     sense, bound = (1 if tension > 0 else -1), 1e-11 if part > 0.5 else 1e-12
+    kappa = (sense, -sense) if large else (1, 1)
     with mpmath.workdps(24):
-        off = missed(cycle(name, *edges, shear, dsigma, (sense, -sense)), mpf(zone.m), mpf(zone.n))
+        off = missed(cycle(name, *edges, shear, dsigma, kappa), mpf(zone.m), mpf(zone.n))
         assert abs(off[0]) < bound * abs(zone.m) and abs(off[1]) < bound * abs(zone.n)
 
 
@@ -234,19 +207,24 @@ def test_the_mirror_swaps_the_edges(
         mirror = body.slip_zones(c, a, shear, -dsigma, **turned, **back, order=order)
         assert_allclose(zones, mirror[::-1], **near)
     x = np.linspace(-a, c, 7)
-    for name in ("shear_change", "slip_range"):
-        first = getattr(body, name)(x, here, here, shear, dsigma, **law)
-        second = getattr(body, name)(-x, there, there, shear, -dsigma, **turned)
+    pairs = [
+        [
+            getattr(body, name)(sign * x, *ends, shear, sign * dsigma, **given)
+            for sign, ends, given in ((1, (here, here), law), (-1, (there, there), turned))
+        ]
+        for name in ("shear_change", "slip_range")
+    ]
+    pairs.append(
+        [
+            body.shear(
+                *(sign * x, end, shear / 2, sign * dsigma / 2),
+                **(given | {"dQ": shear, "dsigma": sign * dsigma}),
+            )
+            for sign, end, given in ((1, here, law), (-1, there, turned))
+        ]
+    )
+    for first, second in pairs:
         assert_allclose(first, second, rtol=1e-6, atol=1e-7 * np.nanmax([1e-9, *np.abs(first)]))
-    first = body.shear(x, here, shear / 2, dsigma / 2, dQ=shear, dsigma=dsigma, **law)
-    second = body.shear(-x, there, shear / 2, -dsigma / 2, dQ=shear, dsigma=-dsigma, **turned)
-    assert_allclose(first, second, rtol=1e-6, atol=1e-7 * np.nanmax([1e-9, *np.abs(first)]))
-    for name in ("K_T", "L_T"):
-        second = getattr(body, name)(c, a, shear, -dsigma)
-        assert_allclose(getattr(body, name)(a, c, shear, dsigma), second[::-1], **near)
-    first = body.stick_margin(a, c, da, dc * a, shear, dsigma, f=F)
-    second = body.stick_margin(c, a, da, -dc * a, shear, -dsigma, f=F)
-    assert_allclose(first, second[::-1], **near)
     turn = np.array([0.0, 0.5, 1.0, 0.5])
     P, M = (of(a, c, E_star=E_STAR, **slopes) for of in (body.load, body.moment))
     march = body.march(P, M, shear * turn, dsigma * turn, **law)
@@ -289,20 +267,6 @@ def test_forces_and_lengths_scale(name: str) -> None:
         assert_allclose(other[2], slip, rtol=1e-8, atol=1e-12)
 
 
-@settings(max_examples=40)
-@given(a=size, c=size, share=st.floats(0.01, 0.45), pull=tension)
-def test_slip_grows_with_the_changes_of_load(a: float, c: float, share: float, pull: float) -> None:
-    """A part of the way leaves more stick; both contacts are the same."""
-    shear, dsigma = one_cycle(wedge, {"phi": 0.25}, a, c, share, pull)
-    m, n, regime = steady(wedge, a, c, np.linspace(0.1, 1, 5) * shear, 0.0, phi=0.25)
-    assert np.all(np.diff(m) < 0) and np.all(np.diff(n) < 0)
-    parts = np.linspace(0.2, 1, 5)
-    m, n, regime = steady(wedge, a, c, parts * shear, parts * dsigma, phi=0.25)
-    if regime[-1] in (Regime.MODERATE, Regime.LARGE):
-        assert np.all(regime == regime[-1])
-        assert np.all(np.diff(m) <= 1e-12 * a) and np.all(np.diff(n) <= 1e-12 * c)
-
-
 ONES = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
 
 
@@ -340,64 +304,6 @@ def test_pressure_that_falls_faster_than_shear_is_mixed() -> None:
             assert_allclose((zone.m, zone.n), (0.38655, 0.60619), atol=4e-5)
 
 
-def elliptic(a: mpf, c: mpf, m: mpf, n: mpf) -> tuple[mpf, mpf]:
-    """Integrals of sqrt((a + x)(c - x)) r and sqrt((a + x)(c - x))/r, r = sqrt((x + m)/(x - n)).
-
-    Both extend from n to c.  With u = c - x they are sums of U_k = int u**k/sqrt(Q) du, where
-    Q = u (u1 - u)(u2 - u)(u3 - u), u1 = c - n, u2 = c + m and u3 = c + a.  The substitution
-    tau = (x - n)/u gives
-
-        U_k = u1**k/sqrt(u2 u3) int (1 + tau)**-k dtau/sqrt(tau (tau + alpha)(tau + beta))
-
-    with alpha = (a + n)/u3 and beta = (m + n)/u2.  For k = 0 and 1 these are Carlson's R_F and
-    R_J.  For k = 2 the derivative of sqrt(tau (tau + alpha)/(tau + beta))/(1 + tau) reduces the
-    integral to these and R_D; for k = 3 the derivative of sqrt(Q) reduces it to the other U_k.
-    If u1 is small, the terms nearly cancel, and float64 would lose a factor of about (h/u1)**2
-    in precision.  The program therefore uses quadrature.
-    """
-    u1, u2, u3 = c - n, c + m, c + a
-    alpha, beta = (a + n) / u3, (m + n) / u2
-    first = 2 * mpmath.elliprf(0, alpha, beta)
-    third = mpf(2) / 3 * mpmath.elliprj(0, alpha, beta, 1)
-    second = mpf(2) / 3 * mpmath.elliprd(0, alpha, beta)
-    mixed = (alpha * beta - 2 * alpha - 2 * beta + 3) * third + beta * (alpha - beta) * second
-    squared = (first / 2 + mixed / (2 * (beta - 1))) / (alpha - 1)
-    U = [u1**k / mpmath.sqrt(u2 * u3) * v for k, v in enumerate((first, third, squared))]
-    e1, e2, e3 = u1 + u2 + u3, u1 * u2 + u1 * u3 + u2 * u3, u1 * u2 * u3
-    U.append((e3 * U[0] - 2 * e2 * U[1] + 3 * e1 * U[2]) / 4)
-    return u2 * u3 * U[1] - (u2 + u3) * U[2] + U[3], u1 * u3 * U[1] - (u1 + u3) * U[2] + U[3]
-
-
-@pytest.mark.parametrize(("a", "c", "pull"), [(1.5, 1.25, 2.0), (0.5, 2.0, -3.0), (2.0, 2.0, 1.3)])
-def test_hertz_in_complete_elliptic_integrals(a: float, c: float, pull: float) -> None:
-    """Large tension: both conditions by Carlson's forms; the forms against their integrals."""
-    radius = 2.0
-    shear = 0.5 * F * float(hertz.load(a, c, E_star=E_STAR, R=radius))
-    dsigma = pull * 8 * shear / (np.pi * (a + c))
-    m, n, regime = steady(hertz, a, c, shear, dsigma, R=radius)
-    assert regime == Regime.LARGE
-    with mpmath.workdps(40):
-        given_edges = [mpf(float(v)) for v in (a, c, m, n)]
-        left, right, left_end, right_end = given_edges
-        near, far = elliptic(*given_edges)
-        for power, found in ((1, near), (-1, far)):
-
-            def integrand(t: mpf, power: int = power) -> mpf:
-                """At x = n + (c - n) sin(t)**2."""
-                y, rest = ((right - right_end) * of(t) ** 2 for of in (mpmath.sin, mpmath.cos))
-                root = mpmath.sqrt((left_end + right_end + y) / y) ** power
-                return 2 * mpmath.sqrt(y * rest * (left + right_end + y) * rest) * root
-
-            direct = mpmath.quad(integrand, [0, mpmath.pi / 2])
-            assert abs(found / direct - 1) < mpf(10) ** -30
-        near_left, far_left = elliptic(right, left, right_end, left_end)
-        scale = np.sign(pull) * F * E_STAR / radius  # f 2 p = f (E*/R) sqrt(..)
-        by_tension = mpmath.pi * dsigma * (left_end + right_end) / 8
-        off_right = scale * (far_left - near) - shear + by_tension
-        off_left = scale * (near_left - far) - shear - by_tension
-        assert max(abs(off_right), abs(off_left)) < 1e-14 * shear
-
-
 # ---------------------------------------------------------------------- single cycles
 
 
@@ -426,67 +332,20 @@ def test_slip_that_reverses_on_the_way_is_mixed(
         assert still.regime == Regime.FULL_STICK and still.m < 0.995
 
 
-def test_one_edge_that_goes_out_and_one_that_comes_in_tell_nothing_of_what_is_between() -> None:
-    """Wedge, P = E* = phi = 1, M from -0.2 to 0.2: the pressure rests inside while shear goes on.
-    The independent solver finds slip to m = 0.6761 at 1.2 times the closing tension, inside both
-    contacts, whose smaller reach is 0.6770; without shear and tension nothing slips."""
-    first, second = rocked(0.4)
-    zone = wedge.stick_zone(first, second, 0.15, np.array([0.5, 1.2]) * 0.206021, **ONES)
-    assert np.all(zone.regime == Regime.MIXED) and np.all(np.isnan(zone.m))
-    still = wedge.stick_zone(first, second, 0.0, 0.0, **ONES)
-    assert still.regime == Regime.FULL_STICK
-    assert_allclose((still.m, still.n), min(first.a, first.c), rtol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("a", "c", "shear", "pull", "steady"),
-    [
-        (1.0, 3.0, 0.0, 12.0, (-0.0156, 0.386)),
-        (1.0, 3.0, 0.0, 20.0, (-0.229, 0.257)),
-        (3.0, 1.0, 0.1, 10.0, (0.377, 0.041)),
-    ],
-)
-def test_large_tension_that_drives_on_what_has_slipped_is_not_large(
-    a: float, c: float, shear: float, pull: float, steady: tuple[float, float]
-) -> None:
+def test_large_tension_that_drives_on_what_has_slipped_is_not_large() -> None:
     """Shear comes in as dQ - pi dsigma (x - mid)/4 where all sticks, right after the turn.
 
     Its zero, mid + 4 dQ/(pi dsigma), lies beyond the slip zones of opposite senses that the two
-    conditions give: a wedge, tilted to where its middle slips.  `steady` is the zone by boundary
-    elements that march, some 500 of them: narrower by 1 % of the contact than the conditions say.
+    conditions give: a wedge, tilted to where its middle slips.  Boundary elements that march find
+    [-m, n] with m = -0.229, n = 0.257, narrower by 1 % of the contact than the conditions say.
     """
-    here, own = Contact(a, c, np.nan), {"E_star": 1.0, "phi": 0.125}
-    friction = 0.5 * wedge.load(a, c, **own)
-    dQ, dsigma = 2 * shear * friction, 2 * pull * friction / (a + c)
+    here, own = Contact(1.0, 3.0, np.nan), {"E_star": 1.0, "phi": 0.125}
+    dsigma = 20.0 * wedge.load(1.0, 3.0, **own) / 4
     law = {"f": 0.5, **own}
-    turns = (c - a) / 2 + 4 * dQ / (np.pi * dsigma)
-    assert not -steady[0] <= turns <= steady[1]
     for mixed in (False, True):
-        zone = wedge.stick_zone(here, here, dQ, dsigma, mixed=mixed, **law)
+        zone = wedge.stick_zone(here, here, 0.0, dsigma, mixed=mixed, **law)
         assert np.isnan(zone.m) and np.isnan(zone.n)
         assert zone.regime in (Regime.MIXED, Regime.UNSOLVED)
-    mirrored = Contact(c, a, np.nan)
-    assert np.isnan(wedge.stick_zone(mirrored, mirrored, dQ, -dsigma, **law).m)
-
-
-def test_large_tension_holds_at_every_part_of_the_way() -> None:
-    """kappa dq >= 0 where slip is still to come, at eight parts of the half-cycle: what is tested
-    at both of its ends alone holds in between."""
-    rng = np.random.default_rng(3)
-    a, c = rng.uniform(0.75, 2.5, (2, 400))
-    here, own = Contact(a, c, np.nan), {"E_star": 1.0, "phi": 0.125}
-    friction = 0.5 * wedge.load(a, c, **own)
-    dQ = 2 * rng.uniform(0, 0.9, 400) * friction
-    dsigma = 2 * rng.uniform(-10, 10, 400) * friction / (a + c)
-    law = {"f": 0.5, **own}
-    zone = wedge.stick_zone(here, here, dQ, dsigma, **law)
-    large = zone.regime == Regime.LARGE
-    assert np.count_nonzero(large) > 60
-    sense = np.sign(dsigma)
-    for part in np.arange(1, 9) / 8:
-        for place, kappa in ((-zone.m, sense), (zone.n, -sense)):
-            dq = wedge.shear_change(place, here, here, part * dQ, part * dsigma, **law)
-            assert np.all((kappa * dq)[large] >= -1e-9)
 
 
 def test_an_edge_that_turns_round_on_the_way_leaves_the_smallest_contact() -> None:

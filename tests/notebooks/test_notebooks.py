@@ -9,7 +9,6 @@ import matplotlib
 import nbformat
 import pytest
 
-from generated.runtime.kernels import COMPILING
 from notebooks import picture, running
 
 matplotlib.use("Agg")
@@ -51,46 +50,6 @@ def test_no_result_is_typed(path: Path) -> None:
 
 
 # ------------------------------------------------------------------ what runs them
-
-
-def notebook_of(*outputs: dict[str, object]) -> nbformat.NotebookNode:
-    cell = nbformat.v4.new_code_cell("1", outputs=[nbformat.from_dict(o) for o in outputs])
-    return nbformat.v4.new_notebook(cells=[cell])
-
-
-def stream(text: str, name: str = "stdout") -> dict[str, object]:
-    return {"output_type": "stream", "name": name, "text": text}
-
-
-def test_warnings_errors_and_paths_are_faults() -> None:
-    error = {"output_type": "error", "ename": "ValueError", "evalue": "no", "traceback": []}
-    there = "/".join(("", "home", "someone", "file"))
-    found = running.faults(notebook_of(stream("w", "stderr"), error, stream(f"in {there}")))
-    assert [fault.split(":")[0] for fault in found] == ["a path", "a warning", "an error"]
-    assert running.faults(notebook_of(stream("N/m and Pa/sqrt(m)"))) == []
-
-
-def test_a_line_about_compilation_is_not_kept() -> None:
-    """It comes at the first call in a fresh clone only."""
-    notebook = notebook_of(stream(f"{COMPILING}\n", "stderr"), stream("2\n"))
-    (cell,) = running.clean(notebook).cells
-    assert [output.text for output in cell.outputs] == ["2\n"]
-
-
-@pytest.mark.slow
-def test_a_run_that_differs_is_told(tmp_path: Path) -> None:
-    notebook = notebook_of(stream("2\n"))
-    notebook.cells[0].source = "print(1 + 2)"
-    path = tmp_path / "one.ipynb"
-    running.write(running.clean(notebook), path)
-    code = (
-        "import sys; from pathlib import Path; from notebooks.running import differences; "
-        "print(*differences(Path(sys.argv[1])), sep='\\n')"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code, str(path)], cwd=running.ROOT, capture_output=True, text=True
-    )
-    assert "-stdout: 2" in done.stdout and "+stdout: 3" in done.stdout, done.stderr
 
 
 def test_the_readme_s_picture_is_that_of_its_code(tmp_path: Path) -> None:

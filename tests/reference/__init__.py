@@ -14,10 +14,6 @@ it:
     conditions.py   the exact stick zone: two integral conditions, and the premise of these
     mixed.py        the exact stick zone if slip reverses within the half-cycle
     cases.py        cycles whose stick zone is known
-    explore.py      cycles around the threshold, and with varying moment
-    parallel.py     many cycles at once, with a progress bar
-    report.py       the results as Markdown
-    __main__.py     the command that writes FINDINGS.md
 
 Signs: q is the shear traction on the body whose bulk tension counts as positive, x points to the
 right, and slip is the displacement of this body relative to the other one.

@@ -12,7 +12,6 @@ from tests.reference.kernel import Surface
 from tests.reference.loads import State
 from tests.reference.mesh import Floats, graded
 from tests.reference.solver import Case, Level, level, reference
-from tests.reference.stick import Zone, permanent
 
 F = 0.5
 SURFACE = Surface(graded([-1.05, -1, -0.8, 0.8, 1, 1.05], 16))
@@ -40,16 +39,6 @@ def test_full_stick_has_the_known_singular_change() -> None:
     x = found.x[inner]
     exact = (0.2 * HERTZ_LOAD / np.pi - 0.3 / 4 * x) / np.sqrt(1 - x**2)
     np.testing.assert_allclose(change[inner], exact, atol=2e-3)
-
-
-def test_a_stretched_body_slips_outward_and_is_held_back() -> None:
-    # tension alone: q pulls the ends of the body inwards, and they slip outwards
-    found = hertz(0.0, 0.5)
-    q, slip, _ = found.cycle.there
-    left, right = found.x < found.zone.m * -1.02, found.x > found.zone.n * 1.02
-    assert np.all(q[left] >= 0) and np.all(q[right] <= 0)
-    assert slip[left].min() < 0 < slip[right].max()
-    assert found.zone.m == pytest.approx(found.zone.n, rel=1e-9)
 
 
 # ------------------------------------------------------------------ every step
@@ -88,10 +77,6 @@ def test_slip_is_against_friction(varying: Level) -> None:
         assert np.all(half.slip[slides] * q[slides] <= 1e-15)
 
 
-def mesh() -> Floats:
-    return graded([-1.6, -1.3, -1.1, 0, 0.8, 1, 1.2], 12)
-
-
 # ------------------------------------------------------------------ traps
 
 
@@ -109,43 +94,6 @@ def test_an_element_that_comes_back_to_friction_at_rest_has_not_slipped() -> Non
     assert found.zone == pytest.approx((small, small), abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    "known",
-    [
-        Known("", WEDGE, LARGE, 0.15, 1.0, (1, 1), (0.1, 0.2)),
-        Known("", WEDGE, LARGE, 0.15, 1.0, (0.9, 1.1), (0.05, 0.1)),
-        Known("", WEDGE, LARGE, 0.15, 0.2, (0.99, 1.01)),  # around the threshold
-    ],
-    ids=["M varies", "P and M vary", "threshold"],
-)
-def test_where_the_cycle_starts_does_not_matter(known: Known) -> None:
-    # Q and sigma rise from zero to the first state, under its P and M, or to the second one
-    surface = Surface(mesh())
-    first, second = known.states
-    there, back = (
-        level(Case(WEDGE.body, F, *states), surface, 8)
-        for states in ((first, second), (second, first))
-    )
-    assert there.zone == pytest.approx(back.zone, abs=1e-9)
-    bound = F * max(contact.p.max() for contact in there.contacts)
-    np.testing.assert_allclose(there.cycle.there.q, back.cycle.back.q, atol=1e-8 * bound)
-
-
 def test_sliding_is_refused() -> None:
     with pytest.raises(NoSolution, match="slides"):
         hertz(1.01, 0.0)
-
-
-def test_the_zone_ends_with_what_touches_always_or_within_an_element() -> None:
-    # way^(2/3) = x - 0.61
-    x = np.linspace(0, 1, 41)
-    way = np.maximum(x - 0.61, 0) ** 1.5
-    assert permanent(x, way, Zone(-0.33, 1.01)) == pytest.approx((-0.33, 0.61), rel=1e-12)
-
-
-@pytest.mark.slow
-def test_an_edge_that_runs_ahead_of_slip_ends_the_zone() -> None:
-    # contact [-a, c] with c - a = -4 M/P and a c = (P/(E* phi))^2: c = sqrt(1 + 0.1^2) - 0.1
-    first, second = (State(1, s * 0.05, s * 0.06, s * 0.05) for s in (-1, 1))
-    found = reference(Case(WEDGE.body, F, first, second), (16, 32, 64), (4, 8, 16))
-    assert abs(found.zone.n - np.sqrt(1.01) + 0.1) <= found.error.n < 5e-4

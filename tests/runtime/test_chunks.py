@@ -17,7 +17,7 @@ import pytest
 from dask.delayed import delayed
 from numpy.testing import assert_allclose, assert_array_equal
 
-from generated import flat_rounded, hertz, hyperbola, wedge
+from generated import hertz, hyperbola, wedge
 from generated.runtime.types import Contact
 
 F = 0.5
@@ -44,15 +44,6 @@ def test_numbers_arrays_and_constants_mix() -> None:
     assert_allclose(found.compute(), wedge.pressure(x, a, 1.25, E_star=1.5, phi=phi), rtol=1e-14)
 
 
-def test_chunks_that_differ_and_axes_of_one_are_unified() -> None:
-    P, M = np.linspace(1, 2, 10), np.linspace(-0.5, 0.5, 10)
-    found = hertz.contact(da.from_array(P, chunks=4), da.from_array(M, chunks=5), E_star=1.0, R=2.0)
-    assert found.a.chunks == ((4, 1, 3, 2),)
-    assert_allclose(found.a.compute(), hertz.contact(P, M, E_star=1.0, R=2.0).a, rtol=1e-14)
-    tall, wide = da.from_array(P[:5, None], chunks=(2, 1)), da.from_array(M[None, :4], (1, 3))
-    assert hertz.contact(tall, wide, E_star=1.0, R=2.0).a.chunks == ((2, 2, 1), (3, 1))
-
-
 def unknown(values: np.ndarray) -> Any:
     """Chunks whose lengths are not known: those above the middle."""
     whole = da.from_array(values, chunks=4)
@@ -70,17 +61,6 @@ def test_lengths_may_be_unknown() -> None:
         wedge.contact(unknown(values), np.ones(6), **LAW)
 
 
-def test_no_axis_no_elements_and_empty_chunks() -> None:
-    own = {"E_star": 1.0, "R": 1.0, "b": 0.5}
-    state = flat_rounded.contact(da.from_array(1.0), 0.1, **own)
-    assert all(v.shape == () and v.dtype == np.float64 for v in state)
-    assert_allclose(dask.compute(*state), flat_rounded.contact(1.0, 0.1, **own), rtol=1e-14)
-    some = da.from_array(np.linspace(1, 2, 4), chunks=((0, 2, 0, 2),))
-    found = hyperbola.contact(some, 0.25, E_star=1.0, b=0.5, phi=0.25).a
-    assert found.chunks == ((0, 2, 0, 2),) and np.all(np.isfinite(found.compute()))
-    assert hertz.load(da.ones(0), 1.0, E_star=1.0, R=1.0).compute().shape == (0,)
-
-
 def test_what_is_masked_or_no_constant_is_nan_where_it_is() -> None:
     a = da.ma.masked_greater(da.linspace(1, 2, 5, chunks=2), 1.6)
     found = wedge.load(a, 1.0, **LAW).compute()
@@ -92,25 +72,6 @@ def test_what_is_masked_or_no_constant_is_nan_where_it_is() -> None:
 
 
 # ------------------------------------------------------------------ time
-
-
-def test_time_may_be_cut_along_every_other_axis() -> None:
-    Q = np.linspace(0.05, 0.15, 7)[:, None] * [0.0, 1.0, 2.0, 1.0]
-    cycle = hertz.march(1.0, 0.0, da.from_array(Q, chunks=(3, 4)), 0.0, **CYLINDER)
-    assert cycle.m.chunks == ((3, 3, 1), (4,))
-    assert cycle.left.dtype == cycle.regime.dtype == np.int64
-    whole = hertz.march(1.0, 0.0, Q, 0.0, **CYLINDER)
-    for one, other in zip(dask.compute(*cycle), whole, strict=True):
-        assert_allclose(one, other, rtol=1e-12)
-
-
-def test_instants_may_be_unknown_in_number() -> None:
-    Q = np.array([0.0, 0.1, 0.2, 0.1, 9.0])
-    lazily = da.from_array(Q, chunks=5)
-    for P in (1.0, np.ones(1), np.ones((3, 1))):
-        cycle = hertz.march(P, 0.0, lazily[lazily < 1], 0.0, **CYLINDER)
-        known = hertz.march(P, 0.0, Q[:4], 0.0, **CYLINDER)
-        assert_allclose(cycle.m.compute(), known.m, rtol=1e-12)
 
 
 # ------------------------------------------------------------------ each chunk once
@@ -131,17 +92,6 @@ def test_from_loads_to_slip_each_chunk_is_computed_once_and_alone() -> None:
     assert sizes == []
     dask.compute(*slip, zone.regime.max())
     assert sorted(sizes) == [1, 3, 3]
-
-
-def test_the_same_call_has_the_same_name() -> None:
-    """So that Dask shares what two results have in common."""
-    P = da.linspace(1, 2, 6, chunks=2)
-    one, two, other = (hertz.contact(P, M, E_star=1.0, R=1.0).a.name for M in (0.1, 0.1, 0.2))
-    assert one == two != other and one.startswith("contact-a-")
-    one, two, other = (
-        hertz.slip_zones(P, 1.0, 0.1, 0.0, **CYLINDER, order=n).left.name for n in (1, 1, 2)
-    )
-    assert one == two != other
 
 
 # ------------------------------------------------------------------ what is refused, at the call

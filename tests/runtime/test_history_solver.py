@@ -1,19 +1,15 @@
-"""The solver of load histories: a small part of what tests/accuracy/histories.py measures."""
-
-from itertools import product
+"""The solver of load histories: a small part of what accuracy/histories.py measures."""
 
 import numpy as np
 import pytest
 
 from generated.runtime.types import Regime
-from tests.accuracy.histories import (
+from tests.measure.accuracy.histories import (
     CASES,
     CLOSED,
     TURNED,
     compared,
-    contraction,
     covered,
-    first_loading,
     on_elements,
     random_loads,
     settled,
@@ -27,9 +23,10 @@ pytestmark = pytest.mark.slow
 # ---------------------------------------------------------------- the independent solver
 
 
+@pytest.mark.enough("flat_rounded-*")
 @pytest.mark.parametrize(
     ("body", "varies", "smooth"),
-    [("hertz", True, False), ("wedge", True, True), ("flat_rounded", False, False)],
+    [("wedge", True, True), ("flat_rounded", False, False)],
 )
 def test_a_random_history_is_that_of_the_independent_solver(body, varies, smooth):
     loads = random_loads(CASES[body], np.random.default_rng(12), 6, varies, smooth)
@@ -43,46 +40,13 @@ def test_a_random_history_is_that_of_the_independent_solver(body, varies, smooth
 # ---------------------------------------------------------------- exact zones
 
 
-@pytest.mark.parametrize("tol", [1e-3, pytest.param(1e-5, marks=pytest.mark.thorough)])
-def test_a_first_loading_is_cattaneo_s_and_mindlin_s(tol):
-    off, ratio = first_loading(tol)
-    assert off < tol and ratio > 1
-
-
-@pytest.mark.parametrize("one", CLOSED[:8], ids=map(str, range(8)))
-def test_turning_points_and_steady_cycles_come_to_the_exact_zone(one):
-    for off, ratio in (turning_points(one, 1e-3), settled(one, 1e-3)):
-        assert off < 3e-3 and ratio > 1
-
-
-@pytest.mark.enough("turning_points-1-*", "settled-5-0.0001")
-@pytest.mark.parametrize(
-    ("found", "at", "tol"),
-    [
-        *((turning_points, at, 1e-5) for at in (1, 2, 5)),
-        *product([settled], (1, 5, 8), (1e-3, 1e-4, 1e-5)),
-    ],
-)
-def test_and_closer_when_asked(found, at, tol):
-    """Large tension; moderate tension at varying loads; both together."""
+@pytest.mark.enough("settled-[157]-0.001", "turning_points-[26]-0.001")
+@pytest.mark.parametrize("tol", [1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("at", range(len(CLOSED)))
+@pytest.mark.parametrize("found", [turning_points, settled])
+def test_turning_points_and_steady_cycles_come_to_the_exact_zone(found, at, tol):
     off, ratio = found(CLOSED[at], tol)
-    assert off < tol and ratio > 1
-
-
-@pytest.mark.parametrize(
-    "tol", [pytest.param(1e-4, marks=pytest.mark.thorough), pytest.param(1e-5)]
-)
-def test_slip_that_recedes_towards_an_edge_is_solved_on_fine_meshes(tol):
-    """The stick interval ends close to the edge, where elements are small for both reasons."""
-    case = CASES["wedge"]
-    found, plain = (
-        case.module.history([1.04], [0.067], [-0.226], [-0.404], tol=t, **case.constants)
-        for t in (tol, 1e-3)
-    )
-    h = found.a + found.c
-    assert 0.99 < found.n / found.c < 0.999
-    assert found.error < 0.1 * plain.error
-    assert max(abs(found.m - plain.m), abs(found.n - plain.n)) / h < plain.error
+    assert off < (3e-3 if tol == 1e-3 else tol) and ratio > 1
 
 
 def test_the_stated_error_knows_of_time_steps_that_are_too_long():
@@ -116,7 +80,7 @@ def test_the_work_of_a_cycle_counts_what_slips_outside_the_smallest_contact():
 @pytest.mark.parametrize("function", ["history", "steady_cycle"])
 def test_the_stated_errors_cover_the_true_ones(function):
     """In at least 95 of 100 instants, or all of a few cycles; the truth is that of finer meshes."""
-    off, stated = np.transpose(covered(function, 5, fine=3e-4))
+    off, stated = np.transpose(covered(function, 5, 4e-3, 1e-3))
     assert np.mean(off <= stated + 1e-15) >= 0.95
 
 
@@ -129,23 +93,17 @@ def test_friction_takes_what_the_loads_give(body):
     """Within 2 %, of which 1e-3 is for the sums over time and place of the loads' work."""
     told = works(CASES[body], TURNED[body], 1)
     assert abs(told.friction - told.by_shear) < 0.02 * told.by_shear
-    assert abs(told.by_normal) < 1e-3 * told.friction
     steady = CASES[body].module.steady_cycle(*TURNED[body], **CASES[body].constants)
     assert abs(steady.work - told.by_shear) < 0.02 * told.by_shear
 
 
-@pytest.mark.parametrize("body", ["hertz", "wedge"])
-def test_two_histories_under_the_same_loads_never_separate(body):
-    loads = random_loads(CASES[body], np.random.default_rng(3), 7, True, False)
-    assert contraction(CASES[body], loads) < 0.02
-
-
+@pytest.mark.enough("flat_rounded")
 @pytest.mark.parametrize("name", ["wedge", "flat_rounded"])
 def test_first_loadings_under_large_tension_are_half_of_a_steady_half_cycle(name):
     """At constant P and M, Q and sigma from zero leave the zone of a cycle of 2 Q and 2 sigma."""
     case, rng = CASES[name], np.random.default_rng(7)
     ratio = []
-    for _ in range(60):
+    for _ in range(24):
         M = 0.06 * case.load * case.width * rng.uniform(-1, 1)
         Q = 0.5 * case.load * rng.uniform(0.05, 0.6)
         sigma = 2 * Q / case.width * rng.uniform(1.5, 4) * rng.choice([-1, 1])
@@ -156,10 +114,10 @@ def test_first_loadings_under_large_tension_are_half_of_a_steady_half_cycle(name
             off = max(abs(found.m - exact.m), abs(found.n - exact.n))[0] / (here.a + here.c)
             ratio.append(off / found.error[0])
             assert off < 4e-3
-    assert len(ratio) > 20 and np.mean(np.array(ratio) < 1) >= 0.95
+    assert len(ratio) > 8 and np.mean(np.array(ratio) < 1) >= 0.95
 
 
-@pytest.mark.parametrize(("dQ", "dsigma"), [(0.01, -0.09), (0.1, -0.9), (0.3, 0.1)])
+@pytest.mark.parametrize(("dQ", "dsigma"), [(0.1, -0.9), (0.3, 0.1)])
 def test_the_slip_range_of_a_steady_cycle_is_that_of_the_exact_zones(dQ, dsigma):
     case, P, M = CASES["flat_rounded"], 1.0, -0.05
     here = case.module.contact(P, M, E_star=1.0, **case.own)

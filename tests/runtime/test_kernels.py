@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 from generated import hyperbola, wedge
-from generated.runtime import kernels
 from generated.runtime.forward import each_contact
 from generated.runtime.kernels import COMPILED, COMPILING, DAMAGED
 from tests.commands import ROOT, python
@@ -169,20 +168,6 @@ def test_without_numba_the_same_text_runs_as_python() -> None:
     assert float(done.stdout) == pytest.approx(np.sqrt(1 - 0.1 / np.pi), rel=1e-14), done.stderr
 
 
-LOADED = """
-import sys
-import numpy as np
-from generated import wedge
-wedge.contact(np.linspace(1, 2, 3), 0.1, E_star=1.0, phi=0.25)
-print(*{name.partition(".")[0] for name in sys.modules} & {"dask", "sympy", "derive"})
-"""
-
-
-def test_formulas_load_no_other_library_and_compile_nothing() -> None:
-    done = python(LOADED)
-    assert (done.stdout.strip(), done.stderr) == ("", "")
-
-
 @compiled
 def test_kernels_are_compiled_where_derive_is_imported() -> None:
     """Only its commands run them as plain Python."""
@@ -191,9 +176,3 @@ def test_kernels_are_compiled_where_derive_is_imported() -> None:
 
 
 # ------------------------------------------------------------------ choices in formulas
-
-
-def test_where_chooses_between_numbers_and_between_arrays() -> None:
-    assert kernels.where(True, 3.0, 4.0) == 3.0 and kernels.where(False, 3.0, 4.0) == 4.0
-    chosen = kernels.where(np.array([True, False]), 3.0, np.array([4, 5]))
-    np.testing.assert_array_equal(chosen, [3, 5])

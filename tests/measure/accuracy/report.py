@@ -1,0 +1,130 @@
+"""`make accuracy`: write docs/accuracy.md, the largest relative error of every generated function.
+
+Each function is measured in its own process, and as many processes run at once as there are cores.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from derive.body.library import library
+from derive.command.processes import Report, cores, in_processes
+from tests.measure.accuracy.measure import BOUNDS, CATALOGUE, EXACT, EXPLICIT, Worst, worst_of
+from tests.measure.accuracy.regions import REGIONS
+
+PAGE = Path(__file__).parents[3] / "docs" / "accuracy.md"
+
+Task = tuple[str, str, int]
+"""A body, one of its functions, and the number of points per region."""
+
+WORDS = f"""\
+# Accuracy
+
+This page is written by `make accuracy`.  The tables give the largest relative error of each
+function at random float64 inputs, with up to %d points per region, or fewer if the reference is
+expensive to compute.  The reference values are computed with many digits by mpmath and
+python-flint.  The reference of a formula is the formula on the sheet, and that of an integral is
+its definition.  For a quantity that is found by solving equations, it is their solution for exactly
+the same inputs.
+
+Errors are relative to the value itself, with the following exceptions:
+
+| quantity | relative to |
+| --- | --- |
+| contact edges, stick zones, slip zones | the contact width a + c |
+| tilt | P/(E* (a + c)) |
+| moment | P (a + c) |
+| L_N | the larger of L_N and K_N/(a + c) |
+| K_T, L_T, stick_margin | the larger of the two values of the result |
+| shear, shear_change | the friction limit 2 f p at x |
+
+There are three regions of inputs:
+
+- "Bulk" means ordinary contacts and positions.
+- "Near kinks and edges" means that an edge or a stick-slip boundary lies next to a kink, or that
+  the position x lies next to a kink or an edge, at a distance of 1e-9 to 0.1 of the width.
+- "Extreme" means widths over 24 decades (six decades if the pressure is an integral), contacts that
+  reach only 1e-8 of the width to one side, and dimensions of the body that differ by up to six
+  decades.
+
+The bounds are {BOUNDS[True]:.0e} in the bulk and {BOUNDS[False]:.0e} elsewhere.  The bound is
+{EXPLICIT:.0e} in every region for explicit formulas of
+{", ".join(EXACT)}.
+An error meets its bound if it lies within the bound or if rounding of the inputs explains it, that
+is, if it is no more than a few units in the last place times the condition of the problem.  `~`
+marks an error that rounding of the inputs explains, and **bold** marks an error that does not meet
+its bound.  The numbers in parentheses are the number of points at which the function returned no
+number or no solution was found near its result, and the total number of points.  A dash means that
+nothing was measured, because the body has no such region or a point would take minutes.
+"""
+
+
+BEYOND = """\
+Each entry gives the body, the function and the region, then the largest error, the condition of the
+problem, and the inputs."""
+
+
+def measured(task: Task, report: Report) -> list[Worst]:
+    """Measure one function in all regions."""
+    body, function, count = task
+    report(body, function)
+    return [*worst_of(body, function, count)]
+
+
+def page(rows: Sequence[Worst], count: int) -> str:
+    """Return the page in Markdown: a table per body, and the errors that exceed their bounds."""
+    bodies, lines = sorted({row.body for row in rows}), [WORDS % count]
+    by_key = {(row.body, row.function, row.region): row for row in rows}
+    beyond = [row for row in rows if not row.met]
+    lines += [f"Of {len(rows)} figures, {len(rows) - len(beyond)} meet their bounds.", ""]
+    for body in bodies:
+        lines += [f"## {body}", "", "| function | " + " | ".join(REGIONS) + " |"]
+        lines += ["| --- |" + " ---: |" * len(REGIONS)]
+        for entry in CATALOGUE:
+            cells = [by_key.get((body, entry.name, region)) for region in REGIONS]
+            if any(cells):
+                lines.append(f"| {entry.name} | " + " | ".join(map(_cell, cells)) + " |")
+        lines.append("")
+    if beyond:
+        lines += ["## Errors beyond their bounds", "", BEYOND, ""]
+    for row in beyond:
+        inputs = ", ".join(f"{name} = {value!r}" for name, value in row.point.items())
+        entry_of = f"{row.body}, {row.function}, {row.region}: {row.error:.1e}"
+        lines += [f"- {entry_of}, condition {row.condition:.1e}, at {inputs}"]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _cell(row: Worst | None) -> str:
+    if row is None:
+        return "-"
+    number = f"{row.error:.1e}"
+    shown = number if row.met else f"**{number}**"
+    explained = "~" if row.met and row.condition else ""
+    return explained + shown + (f" ({row.lost} of {row.points})" if row.lost else "")
+
+
+@click.command()
+@click.option("--count", default=200, help="Points per region for explicit formulas.")
+@click.option("--quick", is_flag=True, help="Ten points per region, for hertz and flat_rounded.")
+@click.option(
+    "--body",
+    "bodies",
+    multiple=True,
+    help="A body to measure; may be repeated; all bodies by default.",
+)
+@click.option("--output", default=PAGE, type=click.Path(path_type=Path), help="The page to write.")
+def main(count: int, quick: bool, bodies: tuple[str, ...], output: Path) -> None:
+    """Measure the functions and write the page."""
+    bodies, count = (("hertz", "flat_rounded"), 10) if quick else (bodies, count)
+    tasks = [(body, entry.name, count) for body in bodies or library() for entry in CATALOGUE]
+    rows: list[Worst] = []
+    for worst in in_processes(measured, tasks, lambda *_: None, cores()):
+        rows += worst
+    text = page(rows, count)
+    output.write_text(text, encoding="utf-8")
+    print(f"{sum(row.met for row in rows)} of {len(rows)} figures meet their bounds: {output}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,248 @@
+"""The findings as Markdown; all numbers in it come from the run that writes it."""
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from tests.measure.solver.explore import (
+    AROUND,
+    COUNTS,
+    STEPS,
+    VARYING_MOMENT,
+    WINDOW,
+    Explored,
+    Kind,
+    Point,
+    at_constant_loads,
+    cycle,
+    explored,
+    narrowest,
+    smallest,
+    threshold,
+    window,
+)
+from tests.reference.cases import CLOSED, Known
+from tests.reference.conditions import LARGE, MODERATE
+from tests.reference.solver import reference
+from tests.reference.stick import Zone
+
+Row = list[str]
+
+Work = Callable[[Callable[[Any], Any], Sequence[Any]], list[Any]]
+"""A function that works like `map`."""
+
+
+def findings(work: Work) -> str:
+    """The text of the whole file."""
+    parts = [HEAD.strip(), *_closed(work), *_window(work), *_maps(work)]
+    return "\n\n".join(parts) + "\n"
+
+
+HEAD = f"""# Results of the independent solver
+
+Written by `make solver`.  The solver shares no code with `derive` or `generated`.
+The finest meshes have {COUNTS[-1]} elements between two breaks, and {STEPS[-1]} load steps per
+half-cycle.  "±" is the solver's estimate of its own error, and "rounds" is the number of cycles
+until the shear traction repeats itself.  In all cycles E* = 1, f = 1/2, and R = 1 or phi = 1.
+"""
+
+CLOSED_TEXT = """## Known stick zones
+
+Errors are those of the worse end of the zone.  The order of convergence is that between the
+coarsest and the finest mesh.
+"""
+
+WINDOW_TEXT = """## Constant loads around the threshold
+
+The upright wedge at P = 1, dQ = 0.3 f P.  The threshold is dsigma = {:.6f}.  Let
+H = 8 dQ/(pi dsigma).  Slip on the right reverses within the half-cycle if m + n passes through H.
+The zone of moderate tension is exact if a + n <= H, and that of large tension if m + n >= H.
+Between them, from {:.4f} to {:.4f} of the threshold, the solution in three phases in `mixed.py` is
+exact ("turns round").  The loads alone determine which of the three applies; this is the regime in
+the table.  The columns after "±" are differences from the solver's n.
+"""
+
+MAP_TEXT = """## Varying moment
+
+The wedge is the same.  M varies from its mean minus half its range to its mean plus half its range
+while Q and sigma rise.  The premise of the conditions is evaluated for both half-cycles, from the
+loads alone.  It holds if the slip zones of partial half-cycles grow inside both contacts, and if
+the shear traction stays within the friction bound where slip has yet to begin.  The premise is
+sufficient but not necessary: some zones are within the estimate although it fails.  If no zone
+inside both contacts satisfies the conditions, the kind is "no zone" or describes the solver's zone,
+within its estimate:
+
+* an edge runs ahead: at one end, the zone extends to the limit of permanent contact, because slip
+  does not follow the edge;
+* sticks: this is so at both ends; if anything slips, it is a region that comes into contact and
+  leaves it again.
+
+"off" is the difference from the solver's zone at the worse end.  It is given for the zone of the
+conditions, for the smallest m and n of partial half-cycles in both directions ("smallest"), and for
+the exact zone of P and M that are constant at their means ("constant").
+"""
+
+AROUND_TEXT = """## Varying loads around the threshold
+
+The wedge and the columns are the same.  While Q and sigma rise, P varies from 1 minus half its
+range to 1 plus half its range, and M from minus half its range to plus half its range.  The
+threshold is that of P = 1.  A cycle with a negative range is the cycle with the positive range,
+started at its other end, so that the zones must agree.
+"""
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A Markdown table with numbers aligned right; ValueError if a row has a wrong number of cells.
+
+    >>> print(table(["case", "n"], [["a", "1"]]))
+    | case | n |
+    | --- | ---: |
+    | a | 1 |
+    """
+    rule = ["---", *["---:"] * (len(head) - 1)]
+    lines = [head, rule, *rows]
+    if {len(line) for line in lines} != {len(head)}:
+        raise ValueError(f"every row must have {len(head)} cells: {', '.join(head)}")
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def _small(value: float) -> str:
+    return "–" if np.isnan(value) else f"{value:.1e}"
+
+
+def _zone(zone: Zone) -> str:
+    return "none" if np.isnan(zone.m) else f"{zone.m:.5f}, {zone.n:.5f}"
+
+
+# ------------------------------------------------------------------ closed cases
+
+
+def _closed(work: Work) -> list[str]:
+    head = ["cycle", "m, n exact", *_meshes(), "±", "order", "rounds"]
+    return [CLOSED_TEXT.strip(), table(head, work(_closed_row, CLOSED))]
+
+
+def _meshes() -> Row:
+    return [f"error, {count}" for count in COUNTS]
+
+
+def _closed_row(known: Known) -> Row:
+    found, exact = reference(known.case, COUNTS, STEPS), known.exact
+    errors = np.abs(np.subtract(found.zones, exact)).max(axis=1)
+    order = np.log(errors[0] / errors[-1]) / np.log(COUNTS[-1] / COUNTS[0])
+    rounds = str(found.finest.cycle.rounds)
+    figures = [*map(_small, errors), _small(max(found.error)), f"{order:.1f}", rounds]
+    return [known.name, _zone(exact), *figures]
+
+
+# ------------------------------------------------------------------ constant loads
+
+
+def _window(work: Work) -> list[str]:
+    candidates = ["exact", "moderate", "large", "smallest of parts"]
+    head = ["dsigma / threshold", "regime", "H", "m, n solver", "±", *candidates]
+    text = WINDOW_TEXT.strip().format(threshold(), *window())
+    return [text, table(head, work(_window_row, WINDOW))]
+
+
+def _window_row(part: float) -> Row:
+    known = cycle(part * threshold())
+    half, found = known.half_cycle, reference(known.case, COUNTS, STEPS)
+    regime, exact = at_constant_loads(half)
+    candidates = exact, half.exact(MODERATE), half.exact(LARGE), smallest(half)
+    return [
+        f"{part:g}",
+        regime,
+        f"{narrowest(known.dsigma):.5f}",
+        _zone(found.zone),
+        _small(found.error.n),
+        *(_small(abs(zone.n - found.zone.n)) for zone in candidates),
+    ]
+
+
+# ------------------------------------------------------------------ varying loads
+
+FIGURES = [
+    "m, n solver",
+    "±",
+    "off",
+    "smallest, off",
+    "constant, off",
+    "kind",
+    "premise there",
+    "and back",
+    "rounds",
+]
+
+
+def _maps(work: Work) -> list[str]:
+    moment, around = work(_explored, VARYING_MOMENT), work(_explored, AROUND)
+    rows = [
+        [f"{at.mean:g}, {at.span:g}", f"{at.tension:g}", *_figures(found)]
+        for at, found in zip(VARYING_MOMENT, moment, strict=True)
+    ]
+    near = [
+        [f"{at.load:g}, {at.span:g}", f"{at.tension:g}", *_figures(found)]
+        for at, found in zip(AROUND, around, strict=True)
+    ]
+    return [
+        MAP_TEXT.strip(),
+        _summary(moment),
+        table(["M mean, range", "dsigma / threshold", *FIGURES], rows),
+        AROUND_TEXT.strip(),
+        _summary(around),
+        table(["P range, M range", "dsigma / threshold", *FIGURES], near),
+    ]
+
+
+def _explored(point: Point) -> Explored:
+    return explored(point.cycle)
+
+
+def _figures(found: Explored) -> Row:
+    best = found.best
+    return [
+        _zone(found.zone),
+        _small(found.estimate),
+        _small(found.off(best.zone)),
+        _small(found.off(found.smallest)),
+        _small(found.off(found.constant)),
+        found.kind.value,
+        best.there.value,
+        best.back.value,
+        str(found.rounds),
+    ]
+
+
+def _summary(points: Sequence[Explored]) -> str:
+    """How often the premise and the solver agree, as a list of sentences."""
+    kinds = Counter(point.kind for point in points)
+
+    def of(*some: Kind) -> list[Explored]:
+        return [point for point in points if point.kind in some]
+
+    holds, fails = of(Kind.HOLDS), of(Kind.SHRINKS, Kind.BEYOND)
+    turning = [point for point in fails if point.best.shrinks]
+    beyond = sum(point.off(point.best.zone) > point.estimate for point in fails)
+    within = _worst(point.off(point.best.zone) / point.estimate for point in holds)
+    least = _worst(point.off(point.smallest) / point.estimate for point in turning)
+    coarsest = _worst(point.estimate for point in points)
+    farthest = _worst(point.off(point.best.zone) for point in fails)
+    return f"""\
+* The premise holds in {len(holds)} of {len(points)} cycles.  In these the zone of the conditions
+  differs from the solver's by at most {within:.2f} of the solver's estimate.
+* In {len(fails)} cycles it fails although a zone satisfies the conditions: a slip zone shrinks in
+  {kinds[Kind.SHRINKS]}, and shear exceeds friction in {kinds[Kind.BEYOND]}.  The zone differs from
+  the solver's by more than the estimate in {beyond} of these cycles, by up to {farthest:.1e}.
+* In {len(turning)} of these cycles the premise holds in one half-cycle, and fails in the other
+  because a zone shrinks.  The smallest m and n of partial half-cycles then differ from the solver's
+  by at most {least:.2f} of the estimate.
+* In {kinds[Kind.AHEAD]} cycles an edge runs ahead of slip, and in {kinds[Kind.STICKS]} the whole
+  permanent contact sticks.  In {kinds[Kind.OPEN]} further cycles no zone satisfies the conditions.
+* The solver's estimate of its own error is at most {coarsest:.1e}."""
+
+
+def _worst(values: Iterable[float]) -> float:
+    return max(values, default=np.nan)
