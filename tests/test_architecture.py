@@ -89,6 +89,18 @@ def test_the_theory_s_order_lists_every_module() -> None:
     assert sorted(order()) == [name for name in members("derive.theory") if name.count(".") == 2]
 
 
+PACKAGES = sorted(n for n in members("derive") if MODULES[n].name == "__init__.py" and "." in n)
+FREE = {"derive.geometries"}
+
+
+@pytest.mark.parametrize("package", [p for p in PACKAGES if p not in FREE])
+def test_a_package_lists_its_modules(package: str) -> None:
+    text = ast.get_docstring(tree(MODULES[package])) or ""
+    listed = re.findall(r"^ *(\w+) +\S", text, re.MULTILINE)
+    here = {n.rpartition(".")[2] for n in members(package) if n.count(".") == 2}
+    assert here - set(listed) == set()
+
+
 @pytest.mark.parametrize("name", [n for n in members("derive.theory") if n != "derive.theory"])
 def test_a_module_of_the_theory_imports_only_those_above_it(name: str) -> None:
     above = order()[: order().index(name)] if name in order() else order()

@@ -65,9 +65,9 @@ class Lows:
     def places(self, given: Sequence[float], lower: float, upper: float) -> list[float]:
         """Points between two ends where the curvature may be negative, the likeliest first."""
         numbers = [np.float64(value) for value in given]
-        if self._is_polynomial:
-            return self._turning_points(numbers, lower, upper)
         with np.errstate(all="ignore"):
+            if self._is_polynomial:
+                return self._turning_points(numbers, lower, upper)
             places = self._grid(numbers, lower, upper)
             if not places.size:
                 return []
@@ -80,6 +80,8 @@ class Lows:
     def _turning_points(self, numbers: list[np.float64], lower: float, upper: float) -> list[float]:
         """Points where a polynomial may be least, beginning with the lowest."""
         coefficients = np.array(self._polynomials(*numbers)[0], dtype=float)
+        if not np.all(np.isfinite(coefficients)):
+            return []  # the printer refuses such a body
         turning = np.roots(np.polyder(coefficients)).real
         ends = np.array([end for end in (lower, upper) if np.isfinite(end)])
         most = np.max(np.abs([*np.roots(coefficients), *turning, *ends]), initial=1.0) * _BEYOND

@@ -15,17 +15,15 @@
     verdict        claim                     Finding: verdict, evidence, corrected equation
     report         findings                  evidence, errata and remarks in words; JSON
     documents      findings                  Markdown, LaTeX and HTML, by templates
+    proposals      name of a symbol          a usual formula, meaning and unit, for the user to judge
     draft          LaTeX file                a claims file for the user to complete
     accept         claims file               the same file with the readings that a user accepted
-    context        body, symbols, equation   the equation with its calls replaced by formulas
-    lines          claims file               the lines of its claims; the file with some changed
-    entries        table of a claims file    typed entries, or an error with its place
+    schema         tables of a claims file   typed records, or an error with its place
     mistakes       errors in a claims file   one error that reports all; the reason for one claim
-    geometry_file  geometry file             g(x) as text, and units; the file is not executed
-    variables      [variables] and bodies    ranges and units; what an equation with a body may hold
-    meanings       [symbols] and [latex]     the meanings of symbols for a body and a claim
+    own_body       entry `body`              a body of the library, of a geometry file or of a table
+    declarations   the file's own tables     body, ranges, units and spellings for all claims
+    context        body, symbols, equation   the equation with its calls replaced by formulas
     printed        a claim's equation        its text, or the reading of its LaTeX to be accepted
-    claim_options  a claim's other entries   typed values
     claim_table    table [[claims]]          a claim, which is unchecked if an entry is wrong
     userfile       claims file in TOML       its claims
     andresen2020/                            claims files of the paper that introduced the method

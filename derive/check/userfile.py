@@ -129,11 +129,12 @@ def _claims(
 
 def _texts(data: object) -> Iterator[str]:
     """Yield all keys and texts of a file, at any nesting depth."""
-    if isinstance(data, str):
-        yield data
-    elif isinstance(data, Mapping):
-        yield from data
-        yield from _texts(list(data.values()))
-    elif isinstance(data, list):
-        for each in data:
-            yield from _texts(each)
+    left = [data]
+    while left:
+        each = left.pop()
+        if isinstance(each, str):
+            yield each
+        elif isinstance(each, Mapping):
+            left += [*each, *each.values()]
+        elif isinstance(each, list):
+            left += each

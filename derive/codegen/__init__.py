@@ -14,6 +14,7 @@ cuts      the points at which a body without closed formulas is cut for quadratu
 integrals the integrals that are evaluated for such a body, as its docstrings print them
 curve     the text of such a body: its curve and the functions that integrate over it
 module    the template of a generated module
+solved    the text of the functions that are solved numerically, from solved.txt
 languages the closed formulas in C, Fortran, JavaScript, Julia or MATLAB
 mark      the first line of every generated file
 trial     runs the printed module and compares its results with the sheet

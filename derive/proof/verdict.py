@@ -9,11 +9,14 @@ Only formulas with one of the first two verdicts are printed or generated.
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TYPE_CHECKING
+
 
 import mpmath
 from mpmath import mpf
 
-from derive.proof.balls import Value
+if TYPE_CHECKING:
+    from derive.proof.balls import Value
 
 DIGITS = 30
 """Number of digits to which both routes must agree."""
@@ -76,7 +79,7 @@ class Comparison:
         return min(WORKING, shared_digits(self.formula, self.route))
 
 
-def shared_digits(first: Value, second: Value) -> int:
+def shared_digits(first: "Value", second: "Value") -> int:
     """The number of digits that two numbers share; equal numbers share EXACT."""
     gap = abs(first - second)
     return EXACT if gap == 0 else max(0, int(-mpmath.log10(gap / max(abs(first), abs(second)))))
