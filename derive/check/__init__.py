@@ -15,7 +15,7 @@
     verdict        claim                     Finding: verdict, evidence, corrected equation
     report         findings                  evidence, errata and remarks in words; JSON
     documents      findings                  Markdown, LaTeX and HTML, by templates
-    proposals      name of a symbol          a usual formula, meaning and unit, for the user to judge
+    proposals      name of a symbol          a usual formula, meaning and unit, as a proposal
     draft          LaTeX file                a claims file for the user to complete
     accept         claims file               the same file with the readings that a user accepted
     schema         tables of a claims file   typed records, or an error with its place

@@ -36,6 +36,7 @@ _SECONDS = 10.0
 _SHOWN = 4
 _LONGEST = 80
 """The largest number of words and characters of LaTeX that show where an error occurred."""
+_NOTHING = '""'
 _KNOWN = frozenset({"E_star", "f", "x", "s", "xi"})
 """Names that every claims file knows without a declaration."""
 _NEW = "give the name of a new file with --draft"
@@ -141,7 +142,7 @@ class Draft:
             known = proposal(name, self.source)
             given = zip(("proposal", "meaning", "unit"), known, strict=True)
             inside = ", ".join(f"{key} = {_text(text)}" for key, text in given if text)
-            lines.append(f"{name} = {f'{{ {inside} }}' if inside else _text('')}")
+            lines.append(f"{name} = {f'{{ {inside} }}' if inside else _NOTHING}")
         lines += ["", "[latex]"]
         lines += [
             f"{string(spelled).as_string()} = {string(name).as_string()}"

@@ -180,3 +180,19 @@ def test_what_is_no_table(x: Any, p: Any, words: str) -> None:
 def test_an_edge_elsewhere_is_refused(edge: float, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         fit_stuck_shear(np.linspace(0, 1, 40), np.ones(40), edge)
+
+
+def test_stuck_shear_of_a_known_contact() -> None:
+    """Noise of 1 %, and the error of the edge, which adds to that of K_T."""
+    rng, a, c = np.random.default_rng(2), 1.3, 0.7
+    true = [of(a, c, 1.0, 0.3).left for of in (full_stick.K_T, full_stick.L_T)]
+    x = -a + 0.05 * (np.arange(39) + 0.4)
+    exact = (1.0 / np.pi - 0.075 * (x - (c - a) / 2)) / np.sqrt((a + x) * (c - x))
+    tables = [exact * (1 + 0.01 * rng.standard_normal(len(x))) for _ in range(40)]
+    fits = [fit_stuck_shear(x, dq, -a) for dq in tables]
+    off = np.array([(f.K_T, f.L_T) for f in fits]) - true
+    stated = np.array([(f.K_T_error, f.L_T_error) for f in fits])
+    assert np.all(np.mean(np.abs(off) <= 2 * stated, axis=0) >= 0.9)
+    assert np.all(np.median(stated, axis=0) < (0.1 * true[0], 0.5))
+    assert fit_stuck_shear(x, tables[0], -a, 0.1).K_T_error > 2 * fits[0].K_T_error
+    assert_allclose(fit_stuck_shear(-x, tables[0], a).K_T, fits[0].K_T, rtol=1e-9)

@@ -26,6 +26,22 @@ def of_tractions(order: int, here: Any, dQ: float, s: Any, given: Any) -> Any:
     return [found.dq / change - 1, found.q / shear - 1, found.p / p - 1]
 
 
+def of_every_instant(order: int, here: Any, dQ: float, s: Any, given: Any) -> Any:
+    x, off = s - here.a, []
+    for mean in (0.0, 0.4, -0.4):
+        top = (0.5 + mean) * dQ
+        for share, back in ((0.3, True), (1.0, True)):
+            exact = hertz.shear(x, here, top, 0.0, dQ=share * dQ, f=F, **LAW)
+            if mean < 0:  # it came from nothing to the lowest load: mirrored
+                back, bottom = not back, (mean - 0.5) * dQ
+                exact = -hertz.shear(x, here, -bottom, 0.0, dQ=share * dQ, f=F, **LAW)
+            at = tractions(
+                s, **given, order=order, share=share, back=back, mean=mean * given["K_T"]
+            )
+            off.append((at.q - exact) / np.max(np.abs(exact)))
+    return off
+
+
 def of_slip(order: int, here: Any, dQ: float, s: Any, given: Any) -> Any:
     s = s[:3]
     exact = hertz.slip_range(s - here.a, here, here, dQ, 0.0, f=F, **LAW)
@@ -33,7 +49,7 @@ def of_slip(order: int, here: Any, dQ: float, s: Any, given: Any) -> Any:
 
 
 @pytest.mark.parametrize("order", [1, 2])
-@pytest.mark.parametrize("of", [of_tractions, of_slip])
+@pytest.mark.parametrize("of", [of_tractions, of_every_instant, of_slip])
 def test_it_comes_to_the_exact_field(of: Callable[..., Any], order: int) -> None:
     """An eighth of the shear: an eighth of the error, relative to the slip zone."""
     here, off = hertz.contact(1.0, 0.0, **LAW), []

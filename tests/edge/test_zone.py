@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from generated import wedge
-from generated.edge import slip_zone
+from generated.edge import reach, slip_zone
 
 SECOND = {"L_N": 4.0, "L_T": 1.0}
 F = 0.5
@@ -80,3 +80,9 @@ def test_what_is_refused(K_N: Any, given: Any, words: str) -> None:
     kind = TypeError if "number" in words else ValueError
     with pytest.raises(kind, match=words):
         slip_zone(K_N, 0.01, f=F, **given)
+
+
+def test_reach_by_hand() -> None:
+    assert_allclose(reach(2.0, 1.0, L_N=-4.0, L_T=1.0), 0.5, rtol=1e-15)
+    assert_allclose(reach(2.0, 1.0, h=0.25, L_N=-4.0), 0.25, rtol=1e-15)
+    assert np.isnan(reach(2.0, 1.0))
