@@ -88,6 +88,10 @@ NAMED = {
 """Tests of files that are not named after them."""
 
 
+ELSEWHERE = ("tests/generated/test_cluster.py", "tests/runtime/test_kernels.py")
+"""Tests of processes and of compiled files; they run for what is named like them alone."""
+
+
 class Mutant(NamedTuple):
     """One fault: the file, its number there, the line, what stood there, what stands there now."""
 
@@ -112,9 +116,16 @@ class Mutant(NamedTuple):
         """Tests to run, in turn: those of the file, of its folder, of the group."""
         stem = Path(self.path).stem
         own = [str(p.relative_to(ROOT)) for p in (ROOT / "tests").rglob(f"test_{stem}.py")]
-        yield (*own, *NAMED.get(stem, ()))
-        yield next(tests for folder, tests in GROUPS[group].items() if folder in self.path)
-        yield ALL_OF[group]
+        first = (*own, *NAMED.get(stem, ()))
+        then = next(tests for folder, tests in GROUPS[group].items() if folder in self.path)
+        yield first
+        yield (*then, *_without(first))
+        yield (*ALL_OF[group], *_without((*first, *then, *ELSEWHERE)))
+
+
+def _without(tests: tuple[str, ...]) -> tuple[str, ...]:
+    """Options that leave out tests which have run."""
+    return tuple(f"--ignore={test}" for test in tests)
 
 
 # ------------------------------------------------------------------ faults
@@ -205,7 +216,7 @@ class Sandbox:
             path.write_text(kept, encoding="utf-8")
 
     def _failed(self, tests: tuple[str, ...]) -> str:
-        if not tests:
+        if all(test.startswith("--") for test in tests):
             return ""
         command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider"]
         settings = os.environ | {"PYTHONPATH": str(self.home), "OMP_NUM_THREADS": "1"}
