@@ -239,6 +239,7 @@ def _work(
             except Exception as error:
                 note = f"in another process:\n{traceback.format_exc()}"
                 line.send(("failure", _portable(error), note))
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # this process is ending anyway
 
 
 def _bind(bounds: Bounds) -> None:
