@@ -5,12 +5,15 @@ import importlib
 from types import ModuleType
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
+from mpmath import mpf
 from numpy.testing import assert_allclose
 
 from derive.body.library import load_geometry
 from derive.reading.units import parse_unit
+from generated import two_radii
 
 pytestmark = pytest.mark.slow
 
@@ -272,3 +275,44 @@ def test_all_lengths_larger_by_one_factor(name: str) -> None:
     there = body.pressure(by * x, by * a, by * c, **large)
     assert_allclose(there, body.pressure(x, a, c, **small), rtol=1e-13)
     assert_allclose(body.tilt(by * a, by * c, **larger), body.tilt(a, c, **own), rtol=1e-12)
+
+
+def test_a_hyperbola_tilted_almost_as_far_as_its_flanks() -> None:
+    """phi (1 - 1e-3 to 1e-9) and loads over twelve decades, the load asked back."""
+    own = {"b": 0.01, "phi": 0.1}
+    body, given = module("hyperbola"), {"E_star": 1e11, **own}
+    load, gap = np.meshgrid(10.0 ** np.arange(0.0, 13.0, 2.0), 10.0 ** -np.arange(3.0, 9.0))
+    found = body.contact_at_tilt(load, 0.1 * (1 - gap), **given)
+    off = np.abs(body.load(found.a, found.c, **given) / load - 1)
+    assert np.all(off <= 1e-9 + 16 * rounding(body, found.a, found.c, **given))
+
+
+@pytest.mark.parametrize("a", [1.5e-15, 1e-8, 1e-3])
+def test_an_edge_beside_a_change_of_radius_keeps_its_digits(a: float) -> None:
+    """K_left = (1/(pi sqrt h)) int g'' sqrt((c - s)/(a + s)) ds, and with s + a = h sin(t)**2 each
+    piece of constant g'' gives g'' h (t + sin(2 t)/2): an angle T = asin sqrt(a/h) of 1/R_1, the
+    rest of 1/R_2."""
+    R_1, R_2, c = 1.0, 3.0, 1.25
+    with mpmath.workdps(40):
+        h = mpf(a) + c
+        T = mpmath.asin(mpmath.sqrt(a / h))
+        inner = T + mpmath.sin(2 * T) / 2
+        exact = mpmath.sqrt(h) / mpmath.pi * (inner / R_1 + (mpmath.pi / 2 - inner) / R_2)
+    found = two_radii.K_N(a, c, E_star=1.0, R_1=R_1, R_2=R_2)
+    assert abs(float(found.left) / float(exact) - 1) < 1e-14
+
+
+def test_a_narrow_flat_in_a_wide_contact_keeps_the_digits_of_the_second_coefficient() -> None:
+    """Without the flat -1/(4 sqrt(h)); the flat takes int k ds/pi away over its width, k of the
+    defining integral.  Both halves of the parabola are ten thousand times as large."""
+    a, c = 1e4, 1e12
+    found = module("flat_rounded").L_N(a, c, E_star=1.0, R=1.0, b=1.0)
+    with mpmath.workdps(40):
+        h = mpf(a) + mpf(c)
+
+        def taken(s: mpf) -> mpf:
+            r = mpmath.sqrt((c - s) / (a + s))
+            return r * (3 + 2 * r**2) / (6 * h ** mpf(1.5))
+
+        exact = -1 / (4 * mpmath.sqrt(h)) - mpmath.quad(taken, [-1, 1]) / mpmath.pi
+        assert abs(mpf(float(found.left)) / exact - 1) < 1e-15

@@ -106,3 +106,45 @@ def test_an_arc_close_to_its_end_is_right_or_nan(short: float) -> None:
     assert short < 3e-6 or not (math.isnan(load) or math.isnan(half_width))
     assert math.isnan(load) or abs(load / expected - 1) < max(1e-12, last_digit)
     assert math.isnan(half_width) or abs(half_width / a - 1) < 1e-12
+
+
+@pytest.mark.parametrize("k", [1.07, 1.3, 2.5, 20.0])
+def test_the_second_coefficient_of_a_centred_power_law_by_the_gamma_function(k: float) -> None:
+    """r (3 + 2 r**2) = (a + s)**2 (5 a - s)/(a**2 - s**2)**(3/2), of which 5 a**3 + 3 a s**2 over
+    that root is even in s; with u = (s/a)**2 the finite part of its integral with
+    g'' = (k - 1) s**(k - 2) is half of 5 B((k - 1)/2, -1/2) + 3 B((k + 1)/2, -1/2), a**(k - 1)
+    apart, where beta functions go on beyond zero: L_N = (k - 1) a**(k - 1)/(6 pi (2 a)**(3/2))
+    times twice that half.  k = 2: B = 0 and -pi, L_N = -1/(4 sqrt(2 a)), as Hertz has it.
+    """
+    half = 0.75
+    with mpmath.workdps(30):
+        exponent = mpmath.mpf(k)
+        betas = 5 * mpmath.beta((exponent - 1) / 2, -0.5)
+        betas += 3 * mpmath.beta((exponent + 1) / 2, -0.5)
+        scale = (exponent - 1) * half ** (exponent - 1) / (6 * mpmath.pi * 1.5**1.5)
+        wanted = float(scale * betas)
+    found = power.L_N(half, half, E_star=1.0, L=1.0, k=k)
+    assert_allclose([*found], wanted, rtol=1e-13)
+
+
+@pytest.mark.parametrize("place", [1.0332621980744286e-07, 1e-12, -1e-9, -1e-4, 1e-2])
+def test_the_pressure_of_a_circular_arc_beside_its_lowest_point(place: float) -> None:
+    """p = (E*/pi) int g'' L ds with g'' = R**2/(R**2 - s**2)**(3/2), and L = artanh of
+    sqrt((c - x)(a + s)/((a + x)(c - s))) for s < x, else of its inverse: by mpmath, in parts that
+    crowd towards x.  The body is cut at its lowest point, which leaves a short piece there.
+    """
+    left, right = 0.6690008998646891, 0.23710362890825895
+    with mpmath.workdps(30):
+        at = mpmath.mpf(place)
+
+        def integrand(s: Any) -> Any:
+            u, v = (right - at) * (left + s), (left + at) * (right - s)
+            ratio = mpmath.sqrt(u / v) if s < at else mpmath.sqrt(v / u)
+            return 9 / mpmath.sqrt(9 - s**2) ** 3 * mpmath.atanh(ratio)
+
+        near = [mpmath.mpf(10) ** -k for k in range(19)]
+        below = [at - (at + left) * step for step in near]
+        above = [at + (right - at) * step for step in near]
+        wanted = float(mpmath.quad(integrand, below) + mpmath.quad(integrand, above[::-1]))
+    found = circular_arc.pressure(place, left, right, E_star=math.pi, R=3.0)
+    assert_allclose(found, wanted, rtol=1e-13)

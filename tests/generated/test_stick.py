@@ -366,3 +366,93 @@ def test_an_edge_that_turns_round_on_the_way_leaves_the_smallest_contact() -> No
         assert_allclose((found.m, found.n, found.error), (m, n, 0), rtol=1e-14)
     states = hertz.march(P, -1 / r, 0.0, 0.0, **own)
     assert np.all(np.diff(states.n[1:8]) <= 1e-15)  # what stuck since the reversal does not grow
+
+
+def elliptic(a: mpf, c: mpf, m: mpf, n: mpf) -> tuple[mpf, mpf]:
+    """Integrals of sqrt((a + x)(c - x)) r and sqrt((a + x)(c - x))/r, r = sqrt((x + m)/(x - n)).
+
+    Both extend from n to c.  With u = c - x they are sums of U_k = int u**k/sqrt(Q) du, where
+    Q = u (u1 - u)(u2 - u)(u3 - u), u1 = c - n, u2 = c + m and u3 = c + a.  The substitution
+    tau = (x - n)/u gives
+
+        U_k = u1**k/sqrt(u2 u3) int (1 + tau)**-k dtau/sqrt(tau (tau + alpha)(tau + beta))
+
+    with alpha = (a + n)/u3 and beta = (m + n)/u2.  For k = 0 and 1 these are Carlson's R_F and
+    R_J.  For k = 2 the derivative of sqrt(tau (tau + alpha)/(tau + beta))/(1 + tau) reduces the
+    integral to these and R_D; for k = 3 the derivative of sqrt(Q) reduces it to the other U_k.
+    If u1 is small, the terms nearly cancel, and float64 would lose a factor of about (h/u1)**2
+    in precision.  The program therefore uses quadrature.
+    """
+    u1, u2, u3 = c - n, c + m, c + a
+    alpha, beta = (a + n) / u3, (m + n) / u2
+    first = 2 * mpmath.elliprf(0, alpha, beta)
+    third = mpf(2) / 3 * mpmath.elliprj(0, alpha, beta, 1)
+    second = mpf(2) / 3 * mpmath.elliprd(0, alpha, beta)
+    mixed = (alpha * beta - 2 * alpha - 2 * beta + 3) * third + beta * (alpha - beta) * second
+    squared = (first / 2 + mixed / (2 * (beta - 1))) / (alpha - 1)
+    U = [u1**k / mpmath.sqrt(u2 * u3) * v for k, v in enumerate((first, third, squared))]
+    e1, e2, e3 = u1 + u2 + u3, u1 * u2 + u1 * u3 + u2 * u3, u1 * u2 * u3
+    U.append((e3 * U[0] - 2 * e2 * U[1] + 3 * e1 * U[2]) / 4)
+    return u2 * u3 * U[1] - (u2 + u3) * U[2] + U[3], u1 * u3 * U[1] - (u1 + u3) * U[2] + U[3]
+
+
+@pytest.mark.parametrize(("a", "c", "pull"), [(1.5, 1.25, 2.0), (0.5, 2.0, -3.0), (2.0, 2.0, 1.3)])
+def test_hertz_in_complete_elliptic_integrals(a: float, c: float, pull: float) -> None:
+    """Large tension: both conditions by Carlson's forms; the forms against their integrals."""
+    radius = 2.0
+    shear = 0.5 * F * float(hertz.load(a, c, E_star=E_STAR, R=radius))
+    dsigma = pull * 8 * shear / (np.pi * (a + c))
+    m, n, regime = steady(hertz, a, c, shear, dsigma, R=radius)
+    assert regime == Regime.LARGE
+    with mpmath.workdps(40):
+        given_edges = [mpf(float(v)) for v in (a, c, m, n)]
+        left, right, left_end, right_end = given_edges
+        near, far = elliptic(*given_edges)
+        for power, found in ((1, near), (-1, far)):
+
+            def integrand(t: mpf, power: int = power) -> mpf:
+                """At x = n + (c - n) sin(t)**2."""
+                y, rest = ((right - right_end) * of(t) ** 2 for of in (mpmath.sin, mpmath.cos))
+                root = mpmath.sqrt((left_end + right_end + y) / y) ** power
+                return 2 * mpmath.sqrt(y * rest * (left + right_end + y) * rest) * root
+
+            direct = mpmath.quad(integrand, [0, mpmath.pi / 2])
+            assert abs(found / direct - 1) < mpf(10) ** -30
+        near_left, far_left = elliptic(right, left, right_end, left_end)
+        scale = np.sign(pull) * F * E_STAR / radius  # f 2 p = f (E*/R) sqrt(..)
+        by_tension = mpmath.pi * dsigma * (left_end + right_end) / 8
+        off_right = scale * (far_left - near) - shear + by_tension
+        off_left = scale * (near_left - far) - shear - by_tension
+        assert max(abs(off_right), abs(off_left)) < 1e-14 * shear
+
+
+def test_one_edge_that_goes_out_and_one_that_comes_in_tell_nothing_of_what_is_between() -> None:
+    """Wedge, P = E* = phi = 1, M from -0.2 to 0.2: the pressure rests inside while shear goes on.
+    The independent solver finds slip to m = 0.6761 at 1.2 times the closing tension, inside both
+    contacts, whose smaller reach is 0.6770; without shear and tension nothing slips."""
+    first, second = rocked(0.4)
+    zone = wedge.stick_zone(first, second, 0.15, np.array([0.5, 1.2]) * 0.206021, **ONES)
+    assert np.all(zone.regime == Regime.MIXED) and np.all(np.isnan(zone.m))
+    still = wedge.stick_zone(first, second, 0.0, 0.0, **ONES)
+    assert still.regime == Regime.FULL_STICK
+    assert_allclose((still.m, still.n), min(first.a, first.c), rtol=1e-12)
+
+
+def test_large_tension_holds_at_every_part_of_the_way() -> None:
+    """kappa dq >= 0 where slip is still to come, at eight parts of the half-cycle: what is tested
+    at both of its ends alone holds in between."""
+    rng = np.random.default_rng(3)
+    a, c = rng.uniform(0.75, 2.5, (2, 400))
+    here, own = Contact(a, c, np.nan), {"E_star": 1.0, "phi": 0.125}
+    friction = 0.5 * wedge.load(a, c, **own)
+    dQ = 2 * rng.uniform(0, 0.9, 400) * friction
+    dsigma = 2 * rng.uniform(-10, 10, 400) * friction / (a + c)
+    law = {"f": 0.5, **own}
+    zone = wedge.stick_zone(here, here, dQ, dsigma, **law)
+    large = zone.regime == Regime.LARGE
+    assert np.count_nonzero(large) > 60
+    sense = np.sign(dsigma)
+    for part in np.arange(1, 9) / 8:
+        for place, kappa in ((-zone.m, sense), (zone.n, -sense)):
+            dq = wedge.shear_change(place, here, here, part * dQ, part * dsigma, **law)
+            assert np.all((kappa * dq)[large] >= -1e-9)

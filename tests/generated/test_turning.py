@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 
 from generated import wedge
 from generated.runtime.forward import each_pressure
+from generated.runtime.history import refine
 from generated.runtime.types import Contact, Regime
 from tests.generated import test_stick
 from tests.generated.test_stick import E_STAR, F, module
@@ -188,3 +189,17 @@ def test_varying_loads_stay_unknown() -> None:
     law = {"f": F, "E_star": E_STAR, "phi": 0.25}
     zone = wedge.stick_zone(first, second, shear, change, **law, mixed=True)
     assert zone.regime == Regime.MIXED and np.isnan(zone.m)
+
+
+def test_elements_find_the_same_beside_the_ends_of_a_flat() -> None:
+    """Edges 3e-5 inside and 6e-3 beyond the ends of the flat, in parts of it."""
+    at = ("flat_rounded", 0.499985, 0.50302, 0.3079, 1.1169)
+    name, a, c = at[:3]
+    zone, (here, dQ, dsigma) = zone_of(*at), cycle(*at)
+    body, own = module(name), OWN[name]
+    P, M = (float(of(here.a, here.c, E_star=1.0, **own)) for of in (body.load, body.moment))
+    loads = np.array([[P, P], [M, M], [0, dQ / E_STAR], [0, dsigma / E_STAR]])
+    found = refine.steady_cycle(body._BODY, own, F, loads[:, [0, 1, 0]], np.zeros(0), 1e-3)
+    assert zone.regime == Regime.MIXED
+    assert abs(zone.m - found.m) < found.error * (a + c) < 5e-3
+    assert abs(zone.n - found.n) < found.error * (a + c)

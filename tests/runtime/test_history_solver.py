@@ -8,6 +8,7 @@ from tests.measure.accuracy.histories import (
     CASES,
     CLOSED,
     TURNED,
+    F,
     compared,
     covered,
     on_elements,
@@ -128,3 +129,41 @@ def test_the_slip_range_of_a_steady_cycle_is_that_of_the_exact_zones(dQ, dsigma)
         )
         exact = case.module.slip_range(x, here, here, dQ, dsigma, **case.constants)
         assert np.all(abs(found.slip_range - exact) <= 0.02 * np.max(exact))
+
+
+def contraction(case, loads):
+    """The largest growth of the distance of two histories under the same loads, from one instant
+    to the next, over the first distance; they begin with another shear."""
+    P, M, Q, sigma = (np.array(v, dtype=float) for v in np.broadcast_arrays(*loads))
+    other = Q.copy()
+    other[0] = -Q[0] + 0.1 * F * P[0]
+    plain = case.module.history(P, M, Q, sigma, **case.constants)
+    nodes = np.linspace(-plain.a.max(), plain.c.max(), 301)
+    x = (nodes[1:] + nodes[:-1]) / 2
+    here, there = (case.module.history(P, M, v, sigma, x=x, **case.constants).q for v in (Q, other))
+    apart = abs(x[:, None] - x) + (x[1] - x[0]) * np.exp(-1.5) * np.eye(x.size)
+    influence = -np.log(apart / (2 * (nodes[-1] - nodes[0])))
+    distance = np.sqrt([d @ influence @ d for d in here - there])
+    return float(np.max(np.diff(distance[1:])) / distance[1])
+
+
+@pytest.mark.parametrize("body", ["hertz", "wedge"])
+def test_two_histories_under_the_same_loads_never_separate(body):
+    loads = random_loads(CASES[body], np.random.default_rng(3), 7, True, False)
+    assert contraction(CASES[body], loads) < 0.02
+
+
+@pytest.mark.parametrize(
+    "tol", [pytest.param(1e-4, marks=pytest.mark.thorough), pytest.param(1e-5)]
+)
+def test_slip_that_recedes_towards_an_edge_is_solved_on_fine_meshes(tol):
+    """The stick interval ends close to the edge, where elements are small for both reasons."""
+    case = CASES["wedge"]
+    found, plain = (
+        case.module.history([1.04], [0.067], [-0.226], [-0.404], tol=t, **case.constants)
+        for t in (tol, 1e-3)
+    )
+    h = found.a + found.c
+    assert 0.99 < found.n / found.c < 0.999
+    assert found.error < 0.1 * plain.error
+    assert max(abs(found.m - plain.m), abs(found.n - plain.n)) / h < plain.error
