@@ -35,7 +35,6 @@ from sympy import (
     atanh,
     cos,
     cosh,
-    diff,
     exp,
     expand,
     fraction,
@@ -61,7 +60,7 @@ from derive.body.piece import Piece, step, surpluses, with_surpluses
 from derive.body.steep import gently
 from derive.body.trial import REAL_AND_FINITE, typical
 from derive.command.errors import BadProfile
-from derive.symbols import a, c, x
+from derive.symbols import x
 
 _JUMPING = (sign, Heaviside, Piecewise)
 """Functions whose value at a branch point may differ from the values on both sides."""
@@ -308,15 +307,6 @@ def branch_points(profile: Expr) -> list[Expr]:
         if numerator.is_polynomial(x):
             found |= dict.fromkeys(simplify(root) for root in roots(Poly(numerator, x)))
     return list(found)
-
-
-def has_sharp_power(expr: Expr, place: Symbol) -> bool:
-    """Whether a power in `expr` is infinite or not smooth at a point fixed by parameters alone.
-
-    Roots that vanish at the edges of a contact contain a and c; they are not features of the body.
-    """
-    powers = (p for p in expr.atoms(Pow) if p.base.has(place) and not p.base.has(a, c))
-    return any(not p.exp.is_Integer and diff(p.base, place, 2) == 0 for p in powers)
 
 
 def exact(expr: Expr) -> Expr:

@@ -6,7 +6,7 @@ stick, or another symbol.  A change of sign is an ordinary entry of this mapping
 """
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -108,7 +108,6 @@ class AsMeant:
     family       claims of one family share their points, so that integrals are computed once
     defined      whether the file's definitions make both sides the same expression
     rounded      the constant that is printed rounded, if there is exactly one
-    reading      reads a changed form of the equation as both sides, or returns None
     swaps        symbols that may have been confused with each other
     unit_of      the units of the names in the equation and of the variables, where they are known
     """
@@ -128,7 +127,6 @@ class AsMeant:
     family: str = ""
     defined: bool = False
     rounded: Rounded | None = None
-    reading: Callable[[str], tuple[Expr, Expr] | None] | None = None
     swaps: tuple[Symbol, ...] = ()
     unit_of: Mapping[Symbol, str] = field(default_factory=dict)
 

@@ -38,7 +38,7 @@ from derive.check.schema import (
     record,
     records,
 )
-from derive.command.errors import BadFormula, NotAccepted, UserError
+from derive.command.errors import NotAccepted, UserError
 from derive.reading.formula import (
     Names,
     UnknownName,
@@ -206,7 +206,6 @@ class _Equation:
             family=terms.family,
             defined=self._is_defined(),
             rounded=_rounded(self.text, self._names("")),
-            reading=self._reading,
             swaps=self._swaps(named),
             unit_of=context.units_of(named | held),
         )
@@ -245,15 +244,6 @@ class _Equation:
             inside = Integral(over.function.xreplace(table), *over.limits)
             side = side.xreplace({over: inside})
         return side.xreplace(self._calls)
-
-    def _reading(self, text: str) -> tuple[Expr, Expr] | None:
-        """Read an equation with the same calls as the printed one; None if it has others."""
-        try:
-            left, _, right = equation(text, self._names(""), rough=True)
-        except BadFormula:
-            return None
-        left, right = self._without_calls(left), self._without_calls(right)
-        return None if calls_in(left, right) else (left, right)
 
     def _changed(self, symbols: Mapping[str, Any]) -> Meaning:
         """Return the meanings that change if some symbols of the claim are redefined."""

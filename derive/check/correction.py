@@ -39,7 +39,7 @@ class Repair:
     """An equation that differs from the printed one by a change.
 
     change  the kind of the change, and what was changed
-    judged  the evidence that it is true; None before it is judged
+    judged  the evidence that it is true, once it has been judged
     also    other changes that passed the screening, in words
     """
 
