@@ -96,13 +96,10 @@ def missed(whole: Cycle, m: mpf, n: mpf) -> Any:
 STILL, VARY = [(1.5, 1.25)] * 2, [FIRST, SECOND]
 
 
-@pytest.mark.enough("hertz-edges3*", "wedge-edges4*", "two_radii-*", "*edges11-*", "*edges14-*")
+@pytest.mark.enough("hertz-edges0*", "wedge-edges1*", "*edges8-*", "*edges11-*")
 @pytest.mark.parametrize(
     ("name", "edges", "part", "tension"),
     [
-        ("wedge", VARY, 0.25, 0.75),
-        ("two_radii", VARY, 0.25, 0.75),
-        ("flat_rounded", VARY, 0.25, -0.75),
         ("hertz", STILL, 0.25, 1.5),
         ("wedge", VARY, 0.25, 2.5),
         ("hertz", VARY, 0.25, -2.5),
@@ -118,7 +115,7 @@ STILL, VARY = [(1.5, 1.25)] * 2, [FIRST, SECOND]
         ("wedge", [(6.22, 2.51)] * 2, 0.74, -1.775),
     ],
 )
-def test_a_stick_zone_meets_both_conditions(
+def test_a_zone_of_large_tension_meets_both_conditions(
     name: str, edges: list[tuple[float, float]], part: float, tension: float
 ) -> None:
     """`part` of 2 f P; `tension` in parts of 8 dQ/(pi h), the threshold of constant loads."""
@@ -126,11 +123,10 @@ def test_a_stick_zone_meets_both_conditions(
     dsigma = tension * 8 * shear / (np.pi * sum(edges[0]))
     ends = (Contact(*each, 0.0) for each in edges)
     zone = module(name).stick_zone(*ends, shear, dsigma, f=F, **law(name))
-    large = abs(tension) > 1
-    assert zone.regime == (Regime.LARGE if large else Regime.MODERATE)
+    assert zone.regime == Regime.LARGE
     assert (min(zone.m, zone.n) < 0.01 * sum(edges[0])) == (part > 0.5)
     sense, bound = (1 if tension > 0 else -1), 1e-11 if part > 0.5 else 1e-12
-    kappa = (sense, -sense) if large else (1, 1)
+    kappa = sense, -sense
     with mpmath.workdps(24):
         off = missed(cycle(name, *edges, shear, dsigma, kappa), mpf(zone.m), mpf(zone.n))
         assert abs(off[0]) < bound * abs(zone.m) and abs(off[1]) < bound * abs(zone.n)
@@ -456,3 +452,37 @@ def test_large_tension_holds_at_every_part_of_the_way() -> None:
         for place, kappa in ((-zone.m, sense), (zone.n, -sense)):
             dq = wedge.shear_change(place, here, here, part * dQ, part * dsigma, **law)
             assert np.all((kappa * dq)[large] >= -1e-9)
+
+
+@pytest.mark.enough("wedge", "two_radii")
+@pytest.mark.parametrize(
+    "name",
+    ["wedge", "hertz", "flat_rounded", "unequal_wedge", "two_radii", "wedge_parabola"],
+)
+def test_moderate_tension_meets_both_conditions(name: str) -> None:
+    """P and M vary.  The patch is solved for in 30 digits, put into both conditions to 25, and
+    the generated zone is it."""
+    with mpmath.workdps(32):
+        body, own = sheet(name), law(name)
+        of = partial(evaluated, body, **own)
+        ends = [{"a": mpf(a), "c": mpf(c)} for a, c in (FIRST, SECOND)]
+        geometry = OWN[name]
+        tilt = sum(evaluated(body, "tilt", **geometry, **end) for end in ends) / 2
+        load = sum(of("load", **end) for end in ends) / 2
+        shear = 2 * F * float(load) * 0.25
+        tension = 2.0 * shear / 3
+        aim = load - mpf(shear) / (2 * F), tilt - mpf(tension) / (4 * F * E_STAR)
+
+        def off(m: mpf, n: mpf) -> tuple[mpf, mpf]:
+            return of("load", a=m, c=n) - aim[0], evaluated(
+                body, "tilt", **geometry, a=m, c=n
+            ) - aim[1]
+
+        zone = module(name).stick_zone(
+            Contact(*FIRST, 0.0), Contact(*SECOND, 0.0), shear, tension, f=F, **law(name)
+        )
+        assert zone.regime == Regime.MODERATE
+        m, n = mpmath.findroot(off, (mpf(zone.m) * 0.999, mpf(zone.n) * 1.001), tol=1e-56)
+        assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=2e-14)
+        whole = cycle(name, FIRST, SECOND, shear, tension, (1, 1))
+        assert max(map(abs, whole.residuals(m, n))) < mpf(10) ** -25 * shear
