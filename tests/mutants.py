@@ -23,6 +23,7 @@ from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
 from pathlib import Path
 from queue import Queue
+from time import perf_counter
 from typing import NamedTuple
 
 ROOT = Path(__file__).parent.parent
@@ -30,8 +31,8 @@ COPIED = ("derive", "generated", "tests", "notebooks", "docs", "examples", "pypr
 OF_TEXT = "not committed and not fresh_run and not drift"
 """Names of tests that compare text; they are not run."""
 
-LONGEST = 900
-"""Seconds after which tests that run on have caught a mutant."""
+PATIENCE = 2.0
+"""Tests that run on for this many times what those of the group take have caught a mutant."""
 
 SLIP = (
     "tests/runtime/test_zone.py",
@@ -200,22 +201,23 @@ class Sandbox:
     """A copy of the program, its tests and compiled kernels, in which one file changes."""
 
     def __init__(self, home: Path) -> None:
-        self.home = home
+        self.home, self.limit = home, 3600.0
         for name in COPIED:
             source, target = ROOT / name, home / name
             (shutil.copytree if source.is_dir() else shutil.copy2)(source, target)
 
-    def caught(self, mutant: Mutant, group: str, text: str) -> str:
-        """The first test that fails if the mutated file has this text; nothing if none does."""
+    def caught(self, mutant: Mutant, group: str) -> str:
+        """The first test that fails; nothing if the mutant survives."""
         path = self.home / mutant.path
         kept = path.read_text(encoding="utf-8")
-        path.write_text(text, encoding="utf-8")
+        path.write_text(mutant.text, encoding="utf-8")
         try:
-            return next(filter(None, map(self._failed, mutant.tests(group))), "")
+            return next(filter(None, map(self.failed, mutant.tests(group))), "")
         finally:
             path.write_text(kept, encoding="utf-8")
 
-    def _failed(self, tests: tuple[str, ...]) -> str:
+    def failed(self, tests: tuple[str, ...]) -> str:
+        """The first of these tests that fails, or that they run on for too long."""
         if all(test.startswith("--") for test in tests):
             return ""
         command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider"]
@@ -227,7 +229,7 @@ class Sandbox:
                 env=settings,
                 capture_output=True,
                 text=True,
-                timeout=LONGEST,
+                timeout=self.limit,
             )
         except subprocess.TimeoutExpired:
             return "time"
@@ -244,15 +246,18 @@ def tried(group: str, count: int, jobs: int, only: str) -> tuple[int, int]:
         for number in range(jobs):
             idle.put(Sandbox(Path(folder) / str(number)))
 
-        def caught(mutant: Mutant, text: str = "") -> str:
+        def caught(mutant: Mutant) -> str:
             sandbox = idle.get()
+            sandbox.limit = limit
             try:
-                return sandbox.caught(mutant, group, text or mutant.text)
+                return sandbox.caught(mutant, group)
             finally:
                 idle.put(sandbox)
 
-        if by := caught(mutants[0], (ROOT / mutants[0].path).read_text(encoding="utf-8")):
+        began = perf_counter()
+        if by := idle.queue[0].failed(ALL_OF[group]):
             sys.exit(f"no fault is needed: {by} fails as it is")
+        limit = 60 + PATIENCE * (perf_counter() - began)
         for mutant, by in zip(mutants, pool.map(caught, mutants), strict=True):
             survivors += not by
             print(f"{by or 'SURVIVES'}  {mutant}", flush=True)
