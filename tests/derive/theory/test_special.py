@@ -122,6 +122,19 @@ def test_the_rate_of_a_power_next_to_an_edge(edge: int, side: int, left: str, ri
     assert abs(found - wanted) < mpf(10) ** -15 * abs(wanted)
 
 
+@pytest.mark.parametrize(("left", "right"), CONTACTS[2:])
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_second_rate_of_a_root_is_the_limit_of_powers(side: int, left: str, right: str) -> None:
+    """Next to the place, t**(1/2) has a form of its own, because a gamma function is infinite."""
+    edges, weight = {"a": mpf(left), "c": mpf(right)}, (1 + X) ** 2
+    place = Rational(-1, 4) if side > 0 else Rational(1, 4)
+    root = number(sum_of(Power(place, side, S.Half), S.One, weight, 2), **edges)
+    power = sum_of(Power(place, side, p), S.One, weight, 2)
+    nearly = number(power, p=mpf("0.5") + mpf(10) ** -25, **edges)
+    assert abs(root - nearly) < mpf(10) ** -22 * abs(root)
+    assert root != 0
+
+
 @pytest.mark.parametrize(("left", "right"), CONTACTS[1:3])
 @pytest.mark.parametrize("kind", [exp, sinh, cosh])
 @pytest.mark.parametrize("order", range(3))
@@ -136,7 +149,7 @@ def test_exponentials(order: int, kind: type, left: str, right: str) -> None:
     assert agree(number(sum_of(special, polynomial, weight, order), **edges), wanted)
 
 
-@pytest.mark.enough("0-*")
+@pytest.mark.enough("0-*", "2-no real roots-0.4-2")
 @pytest.mark.parametrize(("left", "right"), CONTACTS)
 @pytest.mark.parametrize("quadratic", QUADRATICS.values(), ids=QUADRATICS)
 @pytest.mark.parametrize("order", [0, 1, 2])
