@@ -77,7 +77,7 @@ class Ring:
                     self._gather(base, seen)
                 if expr.is_Pow and base == expr and expr.exp.is_Rational:
                     self.roots[expr] = expr.exp.q, expr.base
-                if power < 0 and not base.is_Rational and base not in self.inverses:
+                if power < 0 and base not in self.inverses:
                     self.inverses.append(base)
 
     # ------------------------------------------------------------------ to polynomials
@@ -102,8 +102,8 @@ class Ring:
         return prod(powers, start=self._ring.constant(1))
 
     def _power(self, base: Expr, power: int) -> Polynomial:
-        if power >= 0 or base.is_Rational:
-            return self.polynomial(base if power >= 0 else 1 / base) ** abs(power)
+        if power >= 0:
+            return self.polynomial(base) ** power
         return self._ring.gen(self._places["inverse", base]) ** -power
 
     # ------------------------------------------------------------------ rewriting polynomials

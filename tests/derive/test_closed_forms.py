@@ -149,7 +149,7 @@ def test_a_mirrored_body_carries_the_mirror_image(name: str) -> None:
 # ------------------------------------------------------------------ against the defining integrals
 
 
-@pytest.mark.enough("power", "exponential")
+@pytest.mark.enough("power", "exponential", "simple_pole")
 @pytest.mark.parametrize("name", [*MADE_UP, *LIBRARY])
 def test_every_form_is_proven(name: str) -> None:
     """It is there, and no other."""

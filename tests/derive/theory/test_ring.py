@@ -13,7 +13,12 @@ b, theta = Symbol("b", positive=True), Symbol("theta_1", nonnegative=True)
 
 @pytest.mark.parametrize(
     "expr",
-    [h ** Rational(3, 2) + sqrt(h) * b, sqrt(h) * a + sqrt(h) * c, (a * cos(x) + c * cos(x)) / b],
+    [
+        h ** Rational(3, 2) + sqrt(h) * b,
+        sqrt(h) * a + sqrt(h) * c,
+        (a * cos(x) + c * cos(x)) / b,
+        a * b / sqrt(2) + b * c / sqrt(2),
+    ],
     ids=str,
 )
 def test_roots_and_functions_are_factored_as_sympy_factors(expr: Expr) -> None:
