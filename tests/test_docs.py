@@ -31,7 +31,7 @@ def test_the_file_shown_is_read(tmp_path: Path) -> None:
     path = tmp_path / "note.toml"
     path.write_text(shown.group(1))
     (claim,) = read_claims(path).claims
-    assert claim.expected.verdict is Verdict.HOLDS
+    assert claim.entry.expected is Verdict.HOLDS
 
 
 @pytest.mark.parametrize("verdict", list(Verdict))

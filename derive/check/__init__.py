@@ -7,7 +7,7 @@
     numbers        two sides, point          both values to 30 digits that are certain
     zero           expression                whether exact steps show that it vanishes identically
     repair         one side of an equation   similar expressions that may have been intended
-    bodies         geometry                  its formulas, each proven
+    bodies         entry `body`              a body and its formulas, each proven
     tending        claim about a limit       whether the sides approach each other, and how fast
     diagnosis      false equation            by what its sides differ, and where it is true
     judge          two sides                 whether they agree, with the evidence for it
@@ -20,7 +20,6 @@
     accept         claims file               the same file with the readings that a user accepted
     schema         tables of a claims file   typed records, or an error with its place
     mistakes       errors in a claims file   one error that reports all; the reason for one claim
-    own_body       entry `body`              a body of the library, of a geometry file or of a table
     declarations   the file's own tables     body, ranges, units and spellings for all claims
     context        body, symbols, equation   the equation with its calls replaced by formulas
     printed        a claim's equation        its text, or the reading of its LaTeX to be accepted

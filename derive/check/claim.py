@@ -10,45 +10,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-import msgspec
 from mpmath import mpf
 from sympy import Expr, Rational, S, Symbol
 from sympy.logic.boolalg import Boolean
 
-from derive.check.schema import AsExpected, AsPrinted, Verdict
+from derive.check.schema import Entry, Reinterpretation, Verdict
 from derive.reading.relation import Relation
 
 __all__ = ["Verdict"]
 
 Meaning = Mapping[Symbol, Expr]
 Point = dict[Symbol, mpf]
-
-
-@dataclass(frozen=True)
-class Convention:
-    """A sign convention that another part of the same source contradicts.
-
-    what         the convention in words, for example "the tension with the opposite sign"
-    meaning      the entries that replace those of the claim's meaning
-    contradicts  the part of the source that contradicts it
-    """
-
-    what: str
-    meaning: Meaning
-    contradicts: str
-
-
-@dataclass(frozen=True)
-class Bound:
-    """A check of a bound on both sides of the state in which it is just reached.
-
-    In that state, which is described by the claim's meaning, both sides must be equal.  If entries
-    of the meaning are replaced by `allowed`, the printed relation must be true; if they are
-    replaced by `beyond`, it must be false.
-    """
-
-    allowed: Meaning
-    beyond: Meaning
 
 
 @dataclass(frozen=True)
@@ -86,9 +58,6 @@ class Rounded:
     power: int
 
 
-NOTHING_EXPECTED = AsExpected()
-
-
 @dataclass(frozen=True)
 class AsMeant:
     """The comparison that a claim stands for.
@@ -96,12 +65,14 @@ class AsMeant:
     left, right  the printed sides, in the source's symbols
     relation     the relation between them
     meaning      the meanings of the source's symbols, in our variables
-    reached      the check of a bound on both sides of the state in which it is reached
+    reached      for a bound, of which `meaning` describes the state in which it is just reached:
+                 the entries that change where it is met, and those where it is exceeded
     through      two expressions that must agree when the symbol `left` is replaced by `right`;
                  used for a definition, which cannot be wrong by itself
     toward       for a claim about a limit, the expression in our variables and its end
     order        for such a claim, the order of the difference; None if the ratio tends to 1
-    conventions  sign conventions that are tried if the claim is not true as printed
+    conventions  sign conventions that are tried if the claim is not true as printed, each with the
+                 entries that replace those of the meaning
     ranges       ranges of our variables; the others are positive and have the range SCALE
     conditions   conditions, in our variables, that every point must satisfy
     cases        the points to use, with numbers as text, if more would take too long
@@ -116,11 +87,11 @@ class AsMeant:
     right: Expr = S.Zero
     relation: Relation = Relation.EQUAL
     meaning: Meaning = field(default_factory=dict)
-    reached: Bound | None = None
+    reached: tuple[Meaning, Meaning] | None = None
     through: tuple[Expr, Expr] | None = None
     toward: tuple[Expr, Expr] | None = None
     order: float | None = None
-    conventions: tuple[Convention, ...] = ()
+    conventions: tuple[tuple[Reinterpretation, Meaning], ...] = ()
     ranges: Mapping[Symbol, Range] = field(default_factory=dict)
     conditions: tuple[Boolean, ...] = ()
     cases: tuple[Mapping[Symbol, str], ...] = ()
@@ -147,14 +118,18 @@ class AsMeant:
 class Claim:
     """One part of a displayed equation, or one statement of the text.
 
+    entry      what the file says of it; `place` and `says` are never empty
+    text       the equation as text, which keeps its form; if it is given in LaTeX, its reading
+    against    what the claim is compared with, in words
     units      a description of the units that do not fit; empty if they fit
     unchecked  the reason why the claim cannot be decided; empty if it can
     seconds    the time limit of the verdict, and then of the search for a correction
     """
 
-    printed: AsPrinted
+    entry: Entry
     meant: AsMeant = AsMeant()
-    expected: AsExpected = NOTHING_EXPECTED
+    text: str = ""
+    against: str = ""
     units: str = ""
     unchecked: str = ""
     seconds: float | None = None
@@ -163,27 +138,23 @@ class Claim:
         """Return the claim with other fields of its meaning, such as other sides."""
         return replace(self, meant=replace(self.meant, **meant))
 
-    def with_text(self, text: str) -> "Claim":
-        """Return the claim with another text of its equation."""
-        return replace(self, printed=msgspec.structs.replace(self.printed, text=text))
-
     @property
     def name(self) -> str:
         """The name for readers: the place of an equation instead of its label in LaTeX."""
-        printed = self.printed
-        has_number = printed.equation or re.match(r"[A-Za-z]+:\S", printed.label)
-        return printed.place if has_number and printed.place else printed.label
+        entry = self.entry
+        has_number = entry.equation or re.match(r"[A-Za-z]+:\S", entry.label)
+        return entry.place if has_number and entry.place else entry.label
 
     @property
     def consequences(self) -> list[str]:
         """The consequence, one statement in each line."""
-        return self.expected.consequence.split("; ") if self.expected.consequence else []
+        return self.entry.consequence.split("; ") if self.entry.consequence else []
 
     def is_called(self, given: str) -> bool:
         """Whether a user may mean this claim: by its label, its name or its equation number."""
-        number = self.printed.equation
+        number = self.entry.equation
         numbers = (number, f"eq. {number}") if number else ()
-        return given in (self.printed.label, self.name, *numbers)
+        return given in (self.entry.label, self.name, *numbers)
 
 
 @dataclass(frozen=True)
@@ -198,11 +169,11 @@ class Paper:
     signs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        labels = [claim.printed.label for claim in self.claims]
+        labels = [claim.entry.label for claim in self.claims]
         assert len(labels) == len(set(labels)), "two claims have the same label"
 
     def __getitem__(self, label: str) -> Claim:
-        return next(claim for claim in self.claims if claim.printed.label == label)
+        return next(claim for claim in self.claims if claim.entry.label == label)
 
     def called(self, given: str) -> tuple[Claim, ...]:
         """Return the claims that a user may mean: one by its name, or all of one equation."""

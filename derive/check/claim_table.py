@@ -10,11 +10,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import msgspec
+from msgspec.structs import replace as with_entries
 from sympy import Expr, Integral, Limit, Rational, Symbol, false, true
 from sympy.logic.boolalg import Boolean
 
-from derive.check.claim import SIGNED, AsMeant, Bound, Claim, Convention, Meaning, Range, Rounded
+from derive.check.claim import SIGNED, AsMeant, Claim, Meaning, Range, Rounded
 from derive.check.context import (
     PLACES,
     Context,
@@ -26,19 +26,11 @@ from derive.check.context import (
     integrals,
     with_real_bound,
 )
-from derive.check.declarations import Declarations, formula_of
-from derive.check.mistakes import reason
-from derive.check.printed import Reading, equation_text, may_be_rough, not_accepted, waiting
-from derive.check.schema import (
-    AsExpected,
-    AsPrinted,
-    Place,
-    Reinterpretation,
-    Terms,
-    record,
-    records,
-)
-from derive.command.errors import NotAccepted, UserError
+from derive.check.declarations import Declarations
+from derive.check.mistakes import Collected, reason
+from derive.check.printed import Reading, may_be_rough, open_reading
+from derive.check.schema import Entry, Formula, Place, decoded
+from derive.command.errors import UserError
 from derive.reading.formula import (
     Names,
     UnknownName,
@@ -67,72 +59,65 @@ class ClaimReader:
 
     def claim(self, number: int, given: Mapping[str, Any], place: Place) -> Claim:
         """Return a claim, which must have a label; `number` counts the claims from 1."""
-        limit = self.declared.limit
-        claim = Claim(_texts(given, place), seconds=limit.seconds)
+        wrong, limit = Collected(), self.declared.limit
+        entry = decoded(Entry, given, place, wrong.noted)
+        where, says = entry.place or Path(place.file).name, entry.says or entry.label
+        claim = Claim(
+            with_entries(entry, place=where, says=says),
+            text=entry.understood or entry.printed,
+            seconds=limit.seconds,
+        )
+        if wrong.errors:
+            self.mistakes += wrong.errors
+            why = "; ".join(reason(error, place) for error in wrong.errors)
+            return self._unread(number, claim, why)
         try:
-            printed, terms, expected = records(given, place, AsPrinted, Terms, AsExpected)
-            claim = replace(claim, expected=expected)
-            context = limit.read(place, lambda: self._context(terms, place))
-            claim = replace(claim, units=context.mismatch(claim.printed.text, place))
-            return limit.read(
-                place, lambda: self._claim(number, claim, printed, terms, place, context)
+            context = limit.read(
+                place, lambda: self.declared.context(place, entry.body, entry.symbols)
             )
+            claim = replace(claim, units=context.mismatch(claim.text, place))
+            return limit.read(place, lambda: self._claim(number, claim, place, context))
         except UserError as error:
             self.mistakes.append(error)
             return self._unread(number, claim, reason(error, place))
 
     def _unread(self, number: int, claim: Claim, why: str) -> Claim:
         """Return an unchecked claim, and record that its LaTeX cannot be read."""
-        printed = claim.printed
-        if printed.latex:
-            self.readings.append(Reading(number, printed.label, printed.latex, "", why=why))
+        if claim.entry.latex:
+            self.readings.append(Reading(number, claim.entry, "", why))
         return replace(claim, unchecked=why)
 
-    def _context(self, terms: Terms, place: Place) -> Context:
-        is_allowed = terms.leading is not False
-        place.demand(is_allowed, "leading = False is not allowed", "write leading = true")
-        own = {name: formula_of(name, said, place) for name, said in terms.symbols.items()}
-        return self.declared.context(place, terms.body, own)
-
-    def _claim(
-        self,
-        number: int,
-        claim: Claim,
-        printed: AsPrinted,
-        terms: Terms,
-        place: Place,
-        context: Context,
-    ) -> Claim:
+    def _claim(self, number: int, claim: Claim, place: Place, context: Context) -> Claim:
         """Return a claim; raise UserError if one of its entries is wrong."""
-        if terms.unchecked:
-            return replace(claim, unchecked=terms.unchecked)
-        names = context.names(place)
+        entry, names = claim.entry, context.names(place)
+        if entry.unchecked:
+            return replace(claim, unchecked=entry.unchecked)
+        is_one = bool(entry.printed) != bool(entry.latex)
+        place.demand(is_one, "`printed` and `latex` exclude each other", "give exactly one of them")
         try:
-            text = equation_text(printed, terms, place, names, self.declared.spellings)
-            left, relation, right = equation(text, names, may_be_rough(terms, text))
-        except NotAccepted as error:
-            self.readings.append(waiting(number, printed, terms, place, error, names))
-            claim = replace(claim, unchecked=not_accepted(printed, error))
-            return claim.with_text(error.understood)
+            if entry.latex:
+                reading = open_reading(number, entry, place, names, self.declared.spellings)
+                if reading is not None:
+                    self.readings.append(reading)
+                    return replace(claim, text=reading.understood, unchecked=reading.remedy)
+            left, relation, right = equation(claim.text, names, may_be_rough(entry, claim.text))
         except UnknownName as error:
             why = _lacking(unknown(error.given, names) or ["oo"], context.meant)
-            is_told = bool(claim.printed.text)
-            return replace(claim, unchecked=why) if is_told else self._unread(number, claim, why)
+            return replace(claim, unchecked=why) if claim.text else self._unread(number, claim, why)
         undefined = {Symbol(name) for name in context.symbols} - context.meant.in_variables.keys()
         left, right = (with_real_bound(side, undefined) for side in (left, right))
-        if terms.given is not None:
-            context = self._following(terms.given, context, place.inside("given"))
+        if entry.given is not None:
+            context = self._following(entry.given, context, place.inside("given"))
             undefined = set()
-        self._read[printed.label] = left, right
-        through = _through(terms, left, names, place)
+        self._read[entry.label] = left, right
+        through = _through(entry, left, names, place)
         sides = [side.xreplace({left: right}) for side in through] or [left, right]
         if lacking := [n for n in context.symbols if Symbol(n) in free(*sides) & undefined]:
             return replace(claim, unchecked=_lacking(lacking, context.meant))
         stated = _Equation(
-            self.declared, terms, place, context, text, left, relation, right, through
+            self.declared, entry, place, context, claim.text, left, relation, right, through
         )
-        expected = msgspec.structs.replace(claim.expected, against=stated.against(claim.expected))
-        return replace(claim, meant=stated.meant(), expected=expected).with_text(text)
+        return replace(claim, meant=stated.meant(), against=stated.against())
 
     def _following(self, given: Iterable[str], context: Context, place: Place) -> Context:
         """Return the context if other claims are true; symbols without meaning become variables."""
@@ -165,7 +150,7 @@ class _Equation:
     """The equation of a claim, as it was read; `through` is empty or has two sides."""
 
     declared: Declarations
-    terms: Terms
+    entry: Entry
     place: Place
     context: Context
     text: str
@@ -176,7 +161,7 @@ class _Equation:
 
     def meant(self) -> AsMeant:
         """Return the comparison that the equation stands for."""
-        terms, context = self.terms, self.context
+        entry, context = self.entry, self.context
         left, right = self._without_calls(self.left), self._without_calls(self.right)
         compared = tuple(map(self._without_calls, self.through)) or (left, right)
         meaning = self._called(context.meant.in_variables)
@@ -184,12 +169,12 @@ class _Equation:
         held = _variables(compared, meaning)
         self._demand_one_parameter(held)
         conditions, reached = self._conditions(held), self._reached()
-        changed = (*reached.allowed.values(), *reached.beyond.values()) if reached else ()
+        changed = [expr for entries in reached or () for expr in entries.values()]
         held = held.union(*(each.free_symbols for each in (*conditions, *changed)))
         places = {place: SIGNED for place in PLACES.values()}
         ranges = {**places, **self.declared.ranges, **self._ranges()}
         named = _names_in(self.left, self.right)
-        is_equal = self.relation == Relation.LIKE and not (terms.approach or terms.leading)
+        is_equal = self.relation == Relation.LIKE and not (entry.approach or entry.leading)
         return AsMeant(
             left=left,
             right=right,
@@ -198,29 +183,37 @@ class _Equation:
             reached=reached,
             through=(compared[0], compared[1]) if self.through else None,
             toward=self._toward(),
-            order=terms.order,
-            conventions=self._conventions(),
+            order=entry.order,
+            conventions=tuple((e, self._changed(e.symbols)) for e in entry.conventions),
             ranges={symbol: span for symbol, span in ranges.items() if symbol in held},
             conditions=conditions,
-            cases=self._cases(),
-            family=terms.family,
+            cases=self._cases(held),
+            family=entry.family,
             defined=self._is_defined(),
-            rounded=_rounded(self.text, self._names("")),
+            rounded=_rounded(self.text, self._names()),
             swaps=self._swaps(named),
             unit_of=context.units_of(named | held),
         )
 
-    def against(self, expected: AsExpected) -> str:
+    def against(self) -> str:
         """Describe what the claim is compared with."""
-        sheet, claims = self.context.sheet, ", ".join(self.terms.given or ())
+        sheet, claims = self.context.sheet, ", ".join(self.entry.given or ())
         told = f" and the formula sheet of {sheet.geometry.name}" if sheet else ""
         given = f", given {claims}" if claims else ""
-        return expected.against or f"the formulas of {self.place.file}{told}{given}"
+        return self.entry.against or f"the formulas of {self.place.file}{told}{given}"
 
-    def _names(self, key: str) -> Names:
+    def _names(self, key: str = "") -> Names:
         """Return the names that an entry may hold: those with a meaning."""
         place = self.place.inside(key) if key else self.place
         return self.context.names(place, [s.name for s in self.context.meant.in_variables])
+
+    def _symbol(self, key: str, name: str, known: Mapping[str, Expr]) -> Symbol:
+        """Return the symbol of a name in an entry."""
+        found = known.get(name)
+        if not isinstance(found, Symbol):
+            why = f"{key}: {name!r} is not a variable"
+            raise self.place.bad(why, "use a name of [variables]")
+        return found
 
     # -------------------------------------------------------------- calls
 
@@ -245,11 +238,10 @@ class _Equation:
             side = side.xreplace({over: inside})
         return side.xreplace(self._calls)
 
-    def _changed(self, symbols: Mapping[str, Any]) -> Meaning:
+    def _changed(self, symbols: Mapping[str, Formula]) -> Meaning:
         """Return the meanings that change if some symbols of the claim are redefined."""
-        said = {**self.terms.symbols, **symbols}
-        own = {name: formula_of(name, formula, self.place) for name, formula in said.items()}
-        other = self.declared.context(self.place, self.terms.body, own).meant.in_variables
+        own, place = {**self.entry.symbols, **symbols}, self.place
+        other = self.declared.context(place, self.entry.body, own).meant.in_variables
         known, calls = self.context.meant.in_variables, set(self._calls.values())
         return {s: e for s, e in self._called(other).items() if s in calls or known.get(s) != e}
 
@@ -257,7 +249,7 @@ class _Equation:
 
     def _toward(self) -> tuple[Expr, Expr] | None:
         """Return the expression that tends to an end, and this end, in our variables."""
-        told, order = self.terms.approach, self.terms.order
+        told, order = self.entry.approach, self.entry.order
         why = f"`order` = {order!r} is not a number, or `as` is missing"
         remedy = "give `order` as a number, together with `as`"
         self.place.demand(bool(told) or order is None, why, remedy)
@@ -274,8 +266,8 @@ class _Equation:
             found |= set(self.context.conditions(written))
             bound |= {over.limits[-1][0] for over in integrals(written)}
             bound |= {each.args[1] for each in written.atoms(Limit)}
-        require, names = self.terms.require, self._names("require")
-        for text in [require] if isinstance(require, str) else require:
+        names = self._names("require")
+        for text in self.entry.requirements:
             found.add(condition(text, names).xreplace(meant.in_variables))
         remedy = "correct `require`, or the arguments of the formulas that are called"
         self.place.demand(false not in found, "its conditions are never satisfied", remedy)
@@ -285,55 +277,47 @@ class _Equation:
 
     def _ranges(self) -> dict[Symbol, Range]:
         """Return the ranges of variables in this claim."""
-        found, place = dict[Symbol, Range](), self.place.inside("ranges")
-        for name, (low, high) in self.terms.ranges.items():
-            symbol: Any = self.context.variables.get(name)
-            place.demand(isinstance(symbol, Symbol), f"{name!r} is not a variable", "declare it")
-            why = f"[{low:g}, {high:g}] is not a range of {name}"
+        found = dict[Symbol, Range]()
+        for name, (low, high) in self.entry.ranges.items():
+            symbol = self._symbol("ranges", name, self.context.variables)
+            why = f"ranges: [{low:g}, {high:g}] is not a range of {name}"
             remedy = "write the lower end first, and none below zero for a positive variable"
-            place.demand(low < high and (low >= 0 or not symbol.is_positive), why, remedy)
+            self.place.demand(low < high and (low >= 0 or not symbol.is_positive), why, remedy)
             found[symbol] = Range(low, high)
         return found
 
-    def _cases(self) -> tuple[Mapping[Symbol, str], ...]:
+    def _cases(self, held: set[Symbol]) -> tuple[Mapping[Symbol, str], ...]:
         """Return the points that the claim prescribes."""
-        known, points = self.context.variables, self.terms.cases
-        for name in {name for each in points for name in each}:
-            is_variable = isinstance(known.get(name), Symbol)
-            why, remedy = f"cases: {name} is not a variable", "give numbers to variables"
-            self.place.demand(is_variable, why, f"{remedy}, such as [{{ l = 1 }}]")
-        return tuple({known[n]: str(number) for n, number in each.items()} for each in points)
+        cases, known = list[Mapping[Symbol, str]](), self.context.variables
+        for each in self.entry.cases:
+            point = {self._symbol("cases", name, known): str(n) for name, n in each.items()}
+            missing = ", ".join(sorted(s.name for s in held - point.keys()))
+            remedy = "give every variable of the claim a value in each case"
+            self.place.demand(not missing, f"cases: {missing} has no value", remedy)
+            cases.append(point)
+        return tuple(cases)
 
     def _swaps(self, named: set[Symbol]) -> tuple[Symbol, ...]:
         """Return the names that may have been confused, by default all names in the equation."""
-        defined, chosen = self.context.meant.in_variables.keys(), self.terms.swaps
-        if chosen is None:
+        defined = self.context.meant.in_variables.keys()
+        if self.entry.swaps is None:
             return (*(s for s in defined if s in named), *sorted(named - defined, key=str))
-        symbols = {**self.context.variables, **{s.name: s for s in defined}}
-        for name in chosen:
-            is_symbol = isinstance(symbols.get(name), Symbol)
-            self.place.demand(is_symbol, f"swaps: {name!r} is not a symbol", "declare it")
-        return tuple(symbols[name] for name in chosen)
+        known = {**self.context.variables, **{s.name: s for s in defined}}
+        return tuple(self._symbol("swaps", name, known) for name in self.entry.swaps)
 
-    def _reached(self) -> Bound | None:
+    def _reached(self) -> tuple[Meaning, Meaning] | None:
         """Return the replacements by which a bound is judged on both sides."""
-        allowed, beyond = self.terms.allowed, self.terms.beyond
+        allowed, beyond = self.entry.allowed, self.entry.beyond
         if allowed is beyond is None:
             return None
         why, remedy = "only one of `allowed` and `beyond` is given", "write both, as allowed = "
         self.place.demand(bool(allowed and beyond), why, f'{remedy}{{ sigma = "..." }}')
-        return Bound(self._changed(allowed or {}), self._changed(beyond or {}))
-
-    def _conventions(self) -> tuple[Convention, ...]:
-        """Return the sign conventions under which the claim is tried."""
-        place = self.place.inside("a convention")
-        read = [record(Reinterpretation, each, place) for each in self.terms.conventions]
-        return tuple(Convention(e.what, self._changed(e.symbols), e.contradicts) for e in read)
+        return self._changed(allowed or {}), self._changed(beyond or {})
 
     def _is_defined(self) -> bool:
         """Whether one side is a symbol and the file defines it by the other side."""
-        terms, meant = self.terms, self.context.meant
-        if terms.given is not None or terms.through or terms.allowed:
+        entry, meant = self.entry, self.context.meant
+        if entry.given is not None or entry.through or entry.allowed:
             return False
         for one, other in ((self.left, self.right), (self.right, self.left)):
             if one in meant.in_variables:
@@ -367,28 +351,17 @@ class _Equation:
                 raise self.place.bad(why, f"use {name} in the other symbols instead")
 
 
-def _texts(given: Mapping[str, Any], place: Place) -> AsPrinted:
-    """Return the texts of a claim; other entries may be wrong."""
-    keys = ("label", "place", "says", "equation", "printed", "latex", "understood")
-    texts = (given[key] if isinstance(given.get(key), str) else "" for key in keys)
-    label, where, says, equation, printed, latex, understood = texts
-    where, says, text = where or Path(place.file).name, says or label, understood or printed
-    return AsPrinted(label, where, says, equation, text, latex)
-
-
-def _through(terms: Terms, left: Expr, names: Names, place: Place) -> tuple[Expr, ...]:
+def _through(entry: Entry, left: Expr, names: Names, place: Place) -> tuple[Expr, ...]:
     """Return both sides of the equation by which a definition is judged, or nothing."""
-    if not terms.through:
+    if not entry.through:
         return ()
-    why = "`through` is given, but the left side is not a symbol"
-    place.demand(isinstance(left, Symbol), why, "write the claim in the form symbol = ...")
-    first, relation, second = equation(terms.through, names)
-    is_equation = relation == Relation.EQUAL and (first.has(left) or second.has(left))
-    why = f"`through` is not an equation that contains {left}"
-    place.demand(is_equation, why, "write one that is true if the claim is true")
+    first, relation, second = equation(entry.through, names)
     is_argument = any(call.has(left) for call in calls_in(first, second))
-    why = f"`through` contains {left} as an argument of one of the body's formulas"
-    place.demand(not is_argument, why, f"use {left} only outside such calls")
+    is_equation = relation == Relation.EQUAL and (first.has(left) or second.has(left))
+    why = f"`through` is not an equation that contains the symbol {left} outside of calls"
+    remedy = "write one that is true if the claim is true, and the claim as symbol = ..."
+    is_right = isinstance(left, Symbol) and is_equation and not is_argument
+    place.demand(is_right, why, remedy)
     return first, second
 
 

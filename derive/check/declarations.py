@@ -7,30 +7,20 @@ Out:  Declarations: the ranges of variables, and the context of each claim.
 from collections.abc import Mapping
 from contextlib import suppress
 from types import MappingProxyType
-from typing import Any
 
 from sympy import Expr, Symbol
 
-from derive.check.bodies import ProvenBody
+from derive.check.bodies import ProvenBody, body_of
 from derive.check.claim import SCALE, Range
 from derive.check.context import PLACES, Context, Meant
 from derive.check.mistakes import Collected, TimeLimit
-from derive.check.own_body import body_of
-from derive.check.schema import (
-    A_RANGE,
-    NO_RANGE,
-    ClaimsFile,
-    DefinedSymbol,
-    Place,
-    Variable,
-    record,
-)
+from derive.check.schema import ClaimsFile, DefinedSymbol, Formula, Place, Variable, decoded
 from derive.command.errors import BadUnit, UserError
 from derive.reading.formula import usable
 from derive.reading.units import Dimension, parse_unit
 from derive.symbols import E_star, f
 
-_PREDEFINED = {"E_star": (E_star, "Pa"), "f": (f, "-")}
+_PREDEFINED = {"E_star": E_star, "f": f}
 
 
 class Declarations:
@@ -55,10 +45,10 @@ class Declarations:
         self._contexts = dict[tuple[object, ...], Context]()
         for name, said in file.variables.items():
             with errors.noted():
-                self._declare(name, said, errors)
+                self._declare(name, said)
         for name, said in file.symbols.items():
             with errors.noted():
-                self._read_symbol(name, said, errors)
+                self._define(name, said)
         with errors.noted():
             for spelling, name in file.latex.items():
                 why = f"[latex] {spelling!r} = {name!r} is not a name"
@@ -72,15 +62,13 @@ class Declarations:
             if name in wrong and all(name in other for other in others):
                 errors.errors.append(wrong[name])
 
-    def _declare(self, name: str, said: object, errors: Collected) -> None:
+    def _declare(self, name: str, said: object) -> None:
         """Add a variable with its range; variables of the theory keep their own symbols."""
         place = self.place.at("variables", name, f"variable {name!r}")
         demand_name(name, place)
-        given = said if isinstance(said, dict) else {}
-        entry, span = record(Variable, given, place, errors.noted), SCALE
-        if not (isinstance(said, str) or (given and entry.low is entry.high is None)):
-            if entry.low is None or entry.high is None or entry.low >= entry.high:
-                raise place.bad(NO_RANGE, A_RANGE.format())
+        entry = decoded(Variable, said if isinstance(said, dict) else {"meaning": said}, place)
+        span = SCALE
+        if entry.low is not None and entry.high is not None:
             span = Range(entry.low, entry.high)
         is_positive = span is SCALE or span.low >= 0
         known = Symbol(name, positive=True) if is_positive else Symbol(name, real=True)
@@ -90,28 +78,25 @@ class Declarations:
         if span is not SCALE or name in PLACES:
             self.ranges[symbol] = span
 
-    def _read_symbol(self, name: str, said: object, errors: Collected) -> None:
+    def _define(self, name: str, said: object) -> None:
         """Add the formula of a symbol, unless it is the entry of a variable."""
-        place = self.place.at("symbols", name)
-        formula = formula_of(name, said, place)
+        place = self.place.at("symbols", name, f"symbol {name!r}")
+        demand_name(name, place)
+        entry = decoded(DefinedSymbol, said if isinstance(said, dict) else {"is": said}, place)
+        formula = text_of(entry)
         parameters = self.body.parameters if self.body else {}
-        predefined = {n: symbol for n, (symbol, _) in _PREDEFINED.items() if self.body}
-        taken = {**parameters, **self.declared, **predefined}
-        if isinstance(said, dict):
-            inside = place.inside(f"the symbol {name!r}")
-            entry = record(DefinedSymbol, said, inside, errors.noted)
-            symbol = taken.get(name, Symbol(name))
-            if symbol not in self.units and symbol not in parameters.values():
-                with errors.noted():
-                    self._add_unit(symbol, entry.unit, inside)
+        taken = {**parameters, **self.declared, **(_PREDEFINED if self.body else {})}
+        symbol = taken.get(name, Symbol(name))
+        if symbol not in self.units and symbol not in parameters.values():
+            self._add_unit(symbol, entry.unit, place)
         if name not in taken or (name in PLACES and formula):
             self.symbols[name] = formula
         elif formula:
             what = "a variable" if name in self.declared else "a parameter of the body"
-            why = f"the symbol {name!r} is already {what}"
+            why = f"it is already {what}"
             raise place.bad(why, "remove the symbol, or rename one of them")
 
-    def _add_unit(self, symbol: Symbol, unit: Any, place: Place) -> None:
+    def _add_unit(self, symbol: Symbol, unit: str | None, place: Place) -> None:
         if unit is None:
             return
         try:
@@ -120,16 +105,24 @@ class Declarations:
             raise place.bad(error.message, "write a unit such as N/m") from error
 
     def context(
-        self, place: Place, given: object = None, own: Mapping[str, str] = MappingProxyType({})
+        self, place: Place, given: object = None, own: Mapping[str, Formula] = MappingProxyType({})
     ) -> Context:
         """Return the context of a claim with its own body, if it gives one, and own symbols."""
         body = self.body if given is None else body_of(given, place)
-        key = (id(body), *sorted(own.items()))
+        for name in own:
+            demand_name(name, place)
+        texts = {name: text_of(formula) for name, formula in own.items()}
+        key = (id(body), *sorted(texts.items()))
         if key not in self._contexts:
-            variables, units, symbols = self._variables(body), self._units(body), self.symbols
             known = self.context(place, given).meant.without(own) if own else Meant()
             made = Context(
-                body, variables, units, {**symbols, **own}, self.place, self.limit, known
+                body,
+                self._variables(body),
+                self._units(body),
+                {**self.symbols, **texts},
+                self.place,
+                self.limit,
+                known,
             )
             for name in made.symbols:
                 made.define(name)
@@ -138,17 +131,15 @@ class Declarations:
 
     def _variables(self, body: ProvenBody | None) -> dict[str, Expr]:
         """Return all variables; parameters of the file's body are always among them."""
-        predefined = {name: symbol for name, (symbol, _) in _PREDEFINED.items()}
         inherited, own = (each.parameters if each else {} for each in (self.body, body))
-        return {**PLACES, **predefined, **inherited, **self.declared, **own}
+        return {**PLACES, **_PREDEFINED, **inherited, **self.declared, **own}
 
     def _units(self, body: ProvenBody | None) -> dict[Symbol, Dimension]:
         """Return the known units; positions are in metres if there is a body."""
-        places = {place: parse_unit("m") for place in PLACES.values() if body}
-        sheets = [each.sheet for each in (self.body, body) if each]
-        found = {s: unit for sheet in sheets for s, unit in sheet.geometry.dimensions.items()}
-        predefined = {symbol: parse_unit(unit) for symbol, unit in _PREDEFINED.values()}
-        return {**places, **found, **predefined, **self.units}
+        found = {place: parse_unit("m") for place in PLACES.values() if body}
+        for each in (self.body, body):
+            found |= each.sheet.geometry.dimensions if each else {}
+        return {**found, E_star: parse_unit("Pa"), f: parse_unit("-"), **self.units}
 
 
 def demand_name(name: str, place: Place) -> None:
@@ -157,10 +148,6 @@ def demand_name(name: str, place: Place) -> None:
     place.demand(usable(name), why, "use another name of letters, digits and _")
 
 
-def formula_of(name: str, said: object, place: Place) -> str:
+def text_of(said: Formula) -> str:
     """Return the formula of a symbol as text, which is empty if it is not defined yet."""
-    demand_name(name, place)
-    formula = said.get("is", "") if isinstance(said, dict) else said
-    why = f"the value of the symbol {name!r} is {formula!r}, which is not a string"
-    place.demand(type(formula) in (str, int, float), why, f'write {name} = "a formula"')
-    return str(formula).strip()
+    return str(said.formula if isinstance(said, DefinedSymbol) else said).strip()

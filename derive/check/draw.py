@@ -169,7 +169,7 @@ class _Drawn:
 
     def __init__(self, claim: Claim, seed: str) -> None:
         digest = hashlib.sha256(
-            f"{claim.meant.family or claim.printed.label}{seed}".encode()
+            f"{claim.meant.family or claim.entry.label}{seed}".encode()
         ).digest()
         self.rng = random.Random(int.from_bytes(digest[:8], "big"))
         self.symbols = variables(claim)

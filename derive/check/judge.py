@@ -259,7 +259,7 @@ class Judging:
     def _wrong_off_the_bound(self) -> Judged | None:
         """Judge the printed relation on both sides of the state in which a bound is reached."""
         bound, sides = self.claim.meant.reached, self.sides
-        cases = ((bound.allowed, True), (bound.beyond, False)) if bound else ()
+        cases = zip(bound, (True, False), strict=True) if bound else ()
         for entries, met in cases:
             off = Sides(self.claim, sides.left, sides.right, {**sides.meaning, **entries})
             for point in islice(points(self.claim), _OFF):
@@ -307,7 +307,7 @@ class Judging:
         if not variables(self.claim):
             return "without any variables"
         if self.claim.meant.cases:
-            return f"in {count} {'case' if count == 1 else 'cases'}"
+            return f"only in {count} prescribed {'case' if count == 1 else 'cases'}"
         left_out = f"; no value at {self.left_out} more points" if self.left_out else ""
         left_out += f"; one side is not real at {self.unreal} more points" if self.unreal else ""
         return f"at {count} points ({spread([pair.point for pair in self.found])}{left_out})"

@@ -10,13 +10,11 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 from derive.check.schema import Place
-from derive.command.errors import BadClaimsFile, BadFormula, NotProven, UserError
+from derive.command.errors import BadClaimsFile, BadFormula, UserError
 from derive.command.limit import LimitReached, within
 
 Read = TypeVar("Read")
 
-_LONG = "simplify it, or increase `seconds`"
-_UNPROVEN = "use another formula, or a simpler body"
 _SHOWN = 30
 """The largest number of characters of a formula that a reason shows."""
 
@@ -70,11 +68,8 @@ class TimeLimit:
         except UserError:
             raise
         except LimitReached:
-            why, remedy = f"it could not be read within {self.seconds:g} s", _LONG
-        except RecursionError:
-            why, remedy = "it is nested too deeply", "simplify it"
-        except NotProven as error:
-            why, remedy = f"it uses a formula that is not proven: {error}", _UNPROVEN
+            why = f"it could not be read within {self.seconds:g} s"
+            remedy = "simplify it, or increase `seconds`"
         except Exception as error:  # an error in SymPy must not stop the other claims
             why = f"it could not be read ({type(error).__name__}: {error})"
             remedy = "write it in another form"

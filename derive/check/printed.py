@@ -1,16 +1,15 @@
-"""Read the equation of a claim from its text or from its LaTeX.
+"""Read the equation of a claim that is given in LaTeX.
 
-In:   the entries of a claim, the names that it may hold, and the LaTeX of symbols.
-Out:  the equation as text.  NotAccepted is raised if the file does not accept the way in which the
-      LaTeX was read; a Reading then shows it to the user.
+In:   the table of the claim, the names that it may hold, and the LaTeX of symbols.
+Out:  a Reading: the equation as text, and whether the file accepts it.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from derive.check.mistakes import reason
-from derive.check.schema import AsPrinted, Place, Terms
-from derive.command.errors import BadFormula, NotAccepted
+from derive.check.schema import Entry, Place
+from derive.command.errors import BadFormula
 from derive.reading.formula import Names, equation, may_be_rounded
 from derive.reading.latex import Latex
 from derive.reading.lexer import plain
@@ -19,88 +18,79 @@ from derive.reading.statements import statements
 
 @dataclass(frozen=True)
 class Reading:
-    """The reading of a claim's LaTeX that the file does not accept yet.
+    """The reading of a claim's LaTeX.
 
     number      the number of the claim in the file, counted from 1
     understood  the equation as text; empty if the claim cannot be read
-    accepted    the different reading that the file accepts; empty if there is none
-    beside      the entries of the claim that its verdict depends on, such as `as` and `require`
     why         the reason why the claim cannot be judged even if this reading is accepted
     """
 
     number: int
-    label: str
-    latex: str
+    entry: Entry
     understood: str
-    accepted: str = ""
-    beside: Mapping[str, str] = field(default_factory=dict)
     why: str = ""
 
+    @property
+    def accepted(self) -> str:
+        """The different reading that the file accepts, if there is one."""
+        return self.entry.understood if self.entry.accepted else ""
 
-def equation_text(
-    printed: AsPrinted, terms: Terms, place: Place, names: Names, spellings: Mapping[str, str]
-) -> str:
-    """Return the printed equation as text; raises NotAccepted."""
-    if bool(printed.text) == bool(printed.latex):
-        raise place.bad("give exactly one of `printed` and `latex`", "give exactly one")
-    if printed.text:
-        return printed.text
+    @property
+    def beside(self) -> dict[str, str]:
+        """The entries of the claim that its verdict depends on, as text."""
+        order = "" if self.entry.order is None else f"{self.entry.order:g}"
+        told = {
+            "as": self.entry.approach,
+            "order": order,
+            "require": " and ".join(self.entry.requirements),
+            "given": " and ".join(self.entry.given or ()),
+        }
+        return {key: text for key, text in told.items() if text}
+
+    @property
+    def remedy(self) -> str:
+        """What the file says of the reading, and what the user can do."""
+        said = f"accepts {self.accepted}" if self.accepted else "does not accept it"
+        understood = f'understood = "{self.understood}"'
+        by_hand = understood if self.entry.accepted else "accepted = true"
+        why = f"the LaTeX was read as {self.understood}, but the file {said}"
+        return f"{why}: use --accept, or write {by_hand}"
+
+
+def open_reading(
+    number: int, entry: Entry, place: Place, names: Names, spellings: Mapping[str, str]
+) -> Reading | None:
+    """Return the reading of a claim's LaTeX, or None if the file accepts it in some form."""
     spelled = {**{n: n for n in names.symbols}, **_usual(names), **spellings}
-    understood = _understood(printed, terms, place, spelled)
-    if not printed.accepted:
-        raise NotAccepted(str(place), understood, "")
-    texts = (printed.understood or understood, understood)
-    both = [equation(text, names, rough=True) for text in texts]
-    if not printed.understood or both[0] != both[1]:
-        raise NotAccepted(str(place), understood, printed.understood)
-    return printed.understood
-
-
-def may_be_rough(terms: Terms, text: str) -> bool:
-    """Whether an equation may use ~, because it has a limit or a rounded constant."""
-    return bool(terms.approach or terms.leading) or may_be_rounded(text)
-
-
-def waiting(
-    number: int, printed: AsPrinted, terms: Terms, place: Place, error: NotAccepted, names: Names
-) -> Reading:
-    """Return the reading that waits for the user, with the entries that the verdict depends on."""
-    require = [terms.require] if isinstance(terms.require, str) else terms.require
-    order = "" if terms.order is None else f"{terms.order:g}"
-    told = {
-        "as": terms.approach,
-        "order": order,
-        "require": " and ".join(require),
-        "given": " and ".join(terms.given or ()),
-    }
-    beside = {key: text for key, text in told.items() if text}
-    understood, why = error.understood, ""
+    understood, accepted = _understood(entry, place, spelled), entry.understood
+    if entry.accepted:
+        both = [equation(text, names, rough=True) for text in (accepted or understood, understood)]
+        if accepted and both[0] == both[1]:
+            return None
+    why = ""
     try:
-        equation(understood, names, rough=may_be_rough(terms, understood))
+        equation(understood, names, may_be_rough(entry, understood))
     except BadFormula as fault:
         why = reason(fault, place)
-    return Reading(number, printed.label, printed.latex, understood, error.accepted, beside, why)
+    return Reading(number, entry, understood, why)
 
 
-def not_accepted(printed: AsPrinted, error: NotAccepted) -> str:
-    """Return the reason why a claim waits for the user, and what the user can do."""
-    said = f"the file accepts {error.accepted}" if error.accepted else "the file does not accept it"
-    by_hand = f'understood = "{error.understood}"' if printed.accepted else "accepted = true"
-    return f"the LaTeX was read as {error.understood}, but {said}: use --accept, or write {by_hand}"
+def may_be_rough(entry: Entry, text: str) -> bool:
+    """Whether an equation may use ~, because it has a limit or a rounded constant."""
+    return bool(entry.approach or entry.leading) or may_be_rounded(text)
 
 
-def _understood(printed: AsPrinted, terms: Terms, place: Place, spelled: Mapping[str, str]) -> str:
+def _understood(entry: Entry, place: Place, spelled: Mapping[str, str]) -> str:
     """Return the LaTeX of a claim, or one statement in its display, as text."""
-    latex, part = printed.latex, printed.part
-    reader = Latex(str(place), latex, spelled)
-    if part is None:
+    reader = Latex(str(place), entry.latex, spelled)
+    if entry.part is None:
         return reader.understood()
-    found = statements(str(place), latex)
-    if not 1 <= part <= len(found):
-        why = f"part = {part!r} is not the number of a statement in this display"
+    found = statements(str(place), entry.latex)
+    if not 1 <= entry.part <= len(found):
+        why = f"part = {entry.part!r} is not the number of a statement in this display"
         raise place.bad(why, f"write a number from 1 to {len(found)}")
-    chosen = found[part - 1]
-    if (chosen.condition or chosen.order) and not (terms.require or terms.approach):
+    chosen = found[entry.part - 1]
+    if (chosen.condition or chosen.order) and not (entry.require or entry.approach):
         says = plain(chosen.condition) or rf"{chosen.small} \to 0"
         why = f"the display also says {says}, but neither `require` nor `as` is given"
         raise place.bad(why, "give the condition in `require`, or the limit in `as`")

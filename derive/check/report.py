@@ -1,12 +1,13 @@
 """Say in words what was found: verdicts, evidence, corrections, signs; explain one claim.
 
-Printed and corrected equations are always rendered from their expressions.
+Corrected equations are always rendered from their expressions.
 """
 
 import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 import mpmath
 from sympy import Expr, Symbol
@@ -33,7 +34,7 @@ _SHOWN = 6
 
 def printed(claim: Claim) -> str:
     """Return the printed equation as text, or an empty string if the claim has none."""
-    return claim.printed.text or ("" if claim.unchecked else _text(claim.meant))
+    return claim.text or ("" if claim.unchecked else _text(claim.meant))
 
 
 def corrected(finding: Finding) -> str | None:
@@ -70,17 +71,56 @@ def in_latex(text: str) -> str:
 # ------------------------------------------------------------------ one claim
 
 
+class Told(NamedTuple):
+    """What is told of a claim under one heading; `latex` is the equation, if it is one."""
+
+    name: str
+    lines: list[str]
+    latex: str = ""
+
+
+def explanation(finding: Finding) -> list[Told]:
+    """Return headings with their lines: what was compared, how, and with which result."""
+    claim, repair = finding.claim, finding.repair
+    entry, meant = claim.entry, claim.meant
+    latex = "" if claim.unchecked else latex_of_equation(meant, meant.relation)
+    sides = (*meant.sides(meant.left, meant.right), meant.left, meant.right)
+    held = set().union(*(side.free_symbols for side in sides))
+    symbols = [f"{s} = {text_of(expr)}" for s, expr in meant.meaning.items() if s in held]
+    in_vain = "none of them is true" if finding.tried and repair is None else ""
+    search = [line for part in _search(finding) for line in lines_of(part)]
+    told = [
+        Told("description", [entry.says]),
+        Told("place", [entry.place] if entry.place != claim.name else []),
+        Told("LaTeX", [" ".join(entry.latex.split())]),
+        Told("printed", [printed(claim) or "no equation"], latex),
+        Told("compared with", [claim.against]),
+        Told("steps", entry.steps),
+        Told("symbols", symbols),
+        Told("verdict", [str(finding.verdict), *lines_of(finding.judged.why), finding.partly]),
+        Told("units", [claim.units]),
+        Told("convention", _convention(finding)),
+        Told("search", [*search, in_vain]),
+        Told("consequence", claim.consequences),
+    ]
+    if repair is not None:
+        latex = latex_of_equation(repair, repair.relation)
+        told.insert(-2, Told("corrected", [_text(repair)], latex))
+    return [each._replace(lines=lines) for each in told if (lines := [*filter(None, each.lines)])]
+
+
 def evidence(finding: Finding) -> str:
     """Return the evidence for the verdict, in one paragraph."""
     claim = finding.claim
-    parts = [f"its units do not fit: {claim.units}"] if claim.units else []
-    if claim.unchecked:
-        return "; ".join([*parts, finding.judged.why])
-    parts += [
-        f"compared with {claim.expected.against}: {finding.judged.why}",
+    compared = "" if claim.unchecked else f"compared with {claim.against}: "
+    parts = [
+        f"its units do not fit: {claim.units}" if claim.units else "",
+        f"{compared}{finding.judged.why}",
         *_convention(finding),
+        finding.partly,
+        *_search(finding),
     ]
-    return "; ".join(filter(None, [*parts, finding.partly, *_search(finding)]))
+    return "; ".join(filter(None, parts))
 
 
 def _convention(finding: Finding) -> list[str]:
@@ -112,45 +152,6 @@ def lines_of(text: str) -> list[str]:
     return re.split(r"; (?![^(]*\))", text)
 
 
-def description(claim: Claim) -> str:
-    """Return what the claim says, and its place if its name does not tell it."""
-    return (
-        claim.printed.says
-        if claim.name == claim.printed.place
-        else f"{claim.printed.says} ({claim.printed.place})"
-    )
-
-
-def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
-    """Return headings with their lines: what was compared, how, and with which result."""
-    claim = finding.claim
-    sides = (
-        *claim.meant.sides(claim.meant.left, claim.meant.right),
-        claim.meant.left,
-        claim.meant.right,
-    )
-    held = set().union(*(side.free_symbols for side in sides))
-    searched = [line for part in _search(finding) for line in lines_of(part)]
-    if finding.tried and finding.repair is None:
-        searched.append("none of them is true")
-    entries = [
-        ("description", [claim.printed.says]),
-        ("place", [claim.printed.place] if claim.printed.place != claim.name else []),
-        ("printed", [printed(claim) or "no equation"]),
-        ("compared with", [claim.expected.against]),
-        ("steps", claim.expected.steps),
-        (
-            "symbols",
-            [f"{s} = {text_of(expr)}" for s, expr in claim.meant.meaning.items() if s in held],
-        ),
-        ("verdict", [str(finding.verdict), *lines_of(finding.judged.why), finding.partly]),
-        ("convention", _convention(finding)),
-        ("corrected", [corrected(finding) or "", *searched]),
-        ("consequence", claim.consequences),
-    ]
-    return [(heading, list(filter(None, lines))) for heading, lines in entries if any(lines)]
-
-
 def numbers(finding: Finding) -> list[tuple[str, str, str]]:
     """Return the first points and the values of both sides there."""
     return [
@@ -177,49 +178,31 @@ def summary(findings: Sequence[Finding]) -> str:
     return f"{len(findings)} {'claim' if len(findings) == 1 else 'claims'}: {counts}"
 
 
-def unexpected(findings: Iterable[Finding]) -> list[Finding]:
-    """Return the findings whose verdicts differ from the expected ones.
-
-    Without an expected verdict, a finding is unexpected if the claim does not hold.
-    """
-    return [finding for finding in findings if not finding.as_expected]
-
-
-def errata(findings: Iterable[Finding]) -> list[Finding]:
-    """Return the findings for claims that are not true as printed."""
-    wrong = (Verdict.CONVENTION, Verdict.FAILS)
-    return [finding for finding in findings if finding.verdict in wrong]
-
-
-def remarks(findings: Iterable[Finding]) -> list[tuple[Finding, str]]:
-    """Return one line for each claim that is not true as printed, is unchecked, or mixes units."""
-    lines = []
-    for finding in findings:
-        parts = [f"its units do not fit, {finding.claim.units}"] if finding.claim.units else []
-        if finding.verdict == Verdict.UNCHECKED:
-            parts.append(finding.judged.why)
-        elif finding.convention is not None:
-            parts.append(f"true with {finding.convention.what}")
-        elif finding.verdict == Verdict.FAILS:
-            stopped = finding.stopped and f"the search for a correction: {finding.stopped}"
-            found = corrected(finding)
-            told = f"correct is {found}" if found else finding.diagnosis
-            told = told or ("" if stopped else "no correction was found")
-            parts += [told, stopped, finding.partly]
-        if parts:
-            lines.append((finding, "; ".join(filter(None, parts))))
-    return lines
+def remark(finding: Finding) -> str:
+    """Return what is to be done about a claim that is not true, is unchecked, or mixes units."""
+    parts = [f"its units do not fit, {finding.claim.units}"] if finding.claim.units else []
+    if finding.verdict == Verdict.UNCHECKED:
+        parts.append(finding.judged.why)
+    elif finding.convention is not None:
+        parts.append(f"true with {finding.convention.what}")
+    elif finding.verdict == Verdict.FAILS:
+        stopped = finding.stopped and f"the search for a correction: {finding.stopped}"
+        found = finding.diagnosis or ("" if stopped else "no correction was found")
+        if finding.repair is not None:
+            found = f"correct is {_text(finding.repair)}"
+        parts += [found, stopped, finding.partly]
+    return "; ".join(filter(None, parts))
 
 
 def signs(paper: Paper, findings: Iterable[Finding]) -> list[str]:
     """List the places in the paper that give a quantity one sign, the opposite one or neither."""
-    by_label = {finding.claim.printed.label: finding for finding in findings}
+    by_label = {finding.claim.entry.label: finding for finding in findings}
     lines = []
     for quantity, labels in paper.signs.items():
         senses: dict[str, list[str]] = {}
         for finding in (by_label[label] for label in labels if label in by_label):
             sense = _SENSES.get(finding.verdict, "unchecked")
-            senses.setdefault(sense, []).append(finding.claim.printed.place)
+            senses.setdefault(sense, []).append(finding.claim.entry.place)
         if senses:
             by_sense = "; ".join(f"{sense} in {', '.join(p)}" for sense, p in senses.items())
             lines.append(f"{quantity}: {by_sense}")
@@ -230,10 +213,10 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
     """Return the findings as a JSON list with one object for each claim."""
     objects = [
         {
-            "label": finding.claim.printed.label,
-            "place": finding.claim.printed.place,
-            "equation": finding.claim.printed.equation or None,
-            "says": finding.claim.printed.says,
+            "label": finding.claim.entry.label,
+            "place": finding.claim.entry.place,
+            "equation": finding.claim.entry.equation or None,
+            "says": finding.claim.entry.says,
             "verdict": str(finding.verdict),
             "expected": finding.as_expected,
             "printed": printed(finding.claim),
@@ -242,7 +225,7 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
             "units": finding.claim.units or None,
             "evidence": evidence(finding),
             "reason": finding.judged.why,
-            "consequence": finding.claim.expected.consequence or None,
+            "consequence": finding.claim.entry.consequence or None,
         }
         for finding in findings
     ]

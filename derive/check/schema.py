@@ -4,7 +4,7 @@ msgspec decodes them, because it is strict and needs no other package: cattrs re
 "5", and pydantic takes three times as long to load and fifteen times as much space.
 
 docs/claims.md describes every entry.  An entry of the wrong type raises BadClaimsFile with its
-file, its line and a remedy, which the type of the entry states.
+file, its line, and what the type of the entry allows.
 """
 
 import re
@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from reprlib import repr as shortened
 from typing import Annotated, Any, TypeVar
 
 import msgspec
@@ -79,44 +80,53 @@ class Place:
             raise self.bad(why, remedy)
 
 
-def records(
-    data: Mapping[str, Any], place: Place, *kinds: type[msgspec.Struct], noted: Noted = nullcontext
-) -> list[Any]:
-    """Return a table as one record of each kind, which share its keys.
+def decoded(
+    kind: type[Record], given: Mapping[str, Any], place: Place, noted: Noted = nullcontext
+) -> Record:
+    """Return a table as a record; raises BadClaimsFile.
 
     noted: returns a context in which an error may be recorded; its entry then keeps its default.
     """
-    fields = [(kind, each) for kind in kinds for each in msgspec.structs.fields(kind)]
-    known = {each.encode_name for _, each in fields}
-    values: dict[type, dict[str, Any]] = {kind: {} for kind in kinds}
-    with noted():
-        if wrong := ", ".join(repr(key) for key in data if key not in known):
-            raise place.bad(f"the key {wrong} is unknown", f"use one of {', '.join(sorted(known))}")
-    for kind, each in fields:
-        key = each.encode_name
-        if key in data or each.required:
-            with noted():
-                values[kind][each.name] = value(key, data.get(key, ""), each.type, place)
-    return [kind(**values[kind]) for kind in kinds]
+    while True:
+        try:
+            return msgspec.convert(given, kind)
+        except msgspec.ValidationError as error:
+            key, why, remedy = _wrong(str(error), kind, given)
+        if not key or key not in given:  # the table itself is wrong
+            raise place.bad(why, remedy)
+        with noted():
+            raise place.bad(why, remedy)
+        given = {name: entry for name, entry in given.items() if name != key}
 
 
-def record(
-    kind: type[Record], data: Mapping[str, Any], place: Place, noted: Noted = nullcontext
-) -> Record:
-    """Return a table as a record."""
-    (made,) = records(data, place, kind, noted=noted)
-    return made
+def _wrong(message: str, kind: type[msgspec.Struct], given: Any) -> tuple[str, str, str]:
+    """Return the key that is wrong, why, and the remedy, from a message of msgspec."""
+    what, _, path = message.partition(" - at `$")
+    path = path.strip("`.")
+    key = re.split(r"[.\[]", path)[0]
+    if named := re.search(r"field `(.+)`", what):
+        if "missing" in what:
+            return key, f"there is no {named[1]}", f"write {named[1]} = ..."
+        known = f"use one of {', '.join(sorted(kind.__struct_encode_fields__))}"
+        remedy = f"leave it out of {path}" if path else known
+        return key or named[1], f"the key {named[1]!r} is unknown", remedy
+    if expected := re.match(r"Expected `(.+?)`(.*?)(, got .*)?$", what):
+        words = [_MEANT[each] for each in expected[1].split(" | ") if each in _MEANT]
+        limit = expected[2].replace(r" matching regex '\\S'", " that is not blank")
+        remedy = " or ".join(dict.fromkeys(words)) + limit
+    elif "enum" in what:
+        remedy = f"one of {', '.join(Verdict)}"
+    else:  # what a record demands itself
+        return key, *what.split(": ", 1)  # type: ignore[return-value]
+    wrong = f"{key} = {shortened(given[key])}" if key else shortened(given)
+    return key, f"{wrong} is not allowed", f"{path or 'it'} must be {remedy}"
 
 
-def value(key: str, given: object, kind: Any, place: Place) -> Any:
-    """Return an entry as a value of a type; raise BadClaimsFile with what is wrong with it."""
-    why, remedy = _WRONG.get(kind, ("", ""))
-    try:
-        if key in _FILLED and isinstance(given, str) and not given.strip():
-            raise place.bad(f"there is no {key}", remedy.format(key=key))
-        return msgspec.convert(given, kind)
-    except msgspec.ValidationError:
-        raise place.bad(why.format(key=key, given=given), remedy.format(key=key)) from None
+_MEANT = {
+    **{"str": "a text", "int": "a number", "float": "a number", "bool": "true or false"},
+    **{"array": "a list", "object": "a table"},
+}
+"""The types of msgspec, in the words of a user."""
 
 
 class Verdict(StrEnum):
@@ -130,148 +140,114 @@ class Verdict(StrEnum):
     UNCHECKED = "unchecked"
 
 
+Text = Annotated[str, msgspec.Meta(pattern=r"\S")]
 Seconds = Annotated[float, msgspec.Meta(gt=0, le=86_400)]
 Number = Annotated[float, msgspec.Meta(gt=-1e6, lt=1e6)]
 """A bound of a range, or a value of a variable."""
-Texts = list[str]
-Lists = dict[str, list[str]]
-Table = dict[str, Any]
-Tables = list[dict[str, Any]]
-Ranges = dict[str, tuple[Number, Number]]
-Points = list[dict[str, Number]]
-
-NO_RANGE = "there is no valid range"
-A_RANGE = "write {{ low = 0.1, high = 0.9 }}, or only its meaning as text"
-_NO_TEXTS = "{key} is not a list of strings", 'write {key} = ["..."]'
-_NO_TABLE = "{key} is not a table", "write [{key}] with names below it, or {key} = {{ ... }}"
-_NO_ORDER = "`order` = {given!r} is not a number, or `as` is missing"
-_NO_PART = "{key} = {given!r} is not the number of a statement in this display"
-_NOT_ALLOWED = "{key} = {given!r} is not allowed"
-
-_WRONG: dict[Any, tuple[str, str]] = {
-    str: ("{key} = {given!r} is not a string", 'write {key} = "..."'),
-    Texts: _NO_TEXTS,
-    Texts | None: _NO_TEXTS,
-    str | Texts: _NO_TEXTS,
-    Table: _NO_TABLE,
-    Table | None: _NO_TABLE,
-    Tables: ("{key} is not a list of tables", "write {key} = [{{ what = ... }}]"),
-    Points: ("{key} is not a list of tables with numbers", "write {key} = [{{ l = 1 }}]"),
-    Ranges: ("{key} does not give two ends to a variable", "write two numbers, such as [0.1, 0.9]"),
-    Lists: ("{key} does not list labels for each quantity", 'write lines such as M = ["(2)"]'),
-    Seconds: (
-        "{key} = {given!r} is not a valid time limit",
-        "write a number above 0 and at most 86400",
-    ),
-    Number | None: (NO_RANGE, A_RANGE),
-    Verdict | None: ("{key} = {given!r} is not a verdict", f"write one of {', '.join(Verdict)}"),
-    bool: (_NOT_ALLOWED, "write {key} = true or {key} = false"),
-    bool | None: (_NOT_ALLOWED, "write {key} = true"),
-    float | None: (_NO_ORDER, "give `order` as a number, together with `as`"),
-    int | None: (_NO_PART, "write a number from 1"),
-    list[Any]: ("the file has no [[claims]]", "add at least one"),
-}
-"""For each type, what is wrong with another value, and the remedy."""
-_FILLED = frozenset(
-    {"label", "printed", "latex", "unchecked", "as", "require", "through", "g", "what"}
-) | {"contradicts"}
-"""Texts that must not be blank."""
 
 
-class ClaimsFile(msgspec.Struct, frozen=True):
+class DefinedSymbol(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """An entry of [symbols] that is a table; the formula is empty if it is not known yet."""
+
+    formula: str | int | float = msgspec.field(default="", name="is")
+    meaning: str = ""
+    proposal: str = ""
+    unit: str | None = None
+
+
+Formula = str | int | float | DefinedSymbol
+"""An entry of [symbols]."""
+
+
+class Variable(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """An entry of [variables]; positive, and of any size, if it has no bounds."""
+
+    meaning: str = ""
+    low: Number | None = None
+    high: Number | None = None
+    unit: str | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse a single bound, and bounds that leave no room."""
+        both = self.low is not None and self.high is not None
+        if not (self.low < self.high if both else self.low is self.high):  # type: ignore[operator]
+            why = "there is no valid range"
+            raise ValueError(f"{why}: write {{ low = 0.1, high = 0.9 }}, or only its meaning")
+
+
+class OwnBody(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A body that the file defines itself."""
+
+    g: Text
+    units: dict[str, str] = {}
+
+
+class Reinterpretation(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """An entry of `conventions`."""
+
+    what: Text
+    contradicts: Text
+    symbols: dict[str, Formula] = {}
+
+
+class Labelled(msgspec.Struct, frozen=True):
+    """The entry that every table [[claims]] must have."""
+
+    label: Text
+
+
+class Entry(Labelled, frozen=True, forbid_unknown_fields=True):
+    """A table [[claims]], as docs/claims.md describes it.
+
+    What is printed comes first, then what it means and where it is to be true, and last what a
+    person has found about it.
+    """
+
+    place: str = ""
+    says: str = ""
+    equation: str = ""
+    printed: Text = ""
+    latex: Text = ""
+    understood: str = ""
+    part: int | None = None
+    accepted: bool = True
+
+    unchecked: Text = ""
+    body: Any = None
+    symbols: dict[str, Formula] = {}
+    given: list[str] | None = None
+    require: Text | list[Text] = []
+    approach: Text = msgspec.field(default="", name="as")
+    order: float | None = None
+    leading: bool = False
+    through: Text = ""
+    allowed: dict[str, Formula] | None = None
+    beyond: dict[str, Formula] | None = None
+    conventions: list[Reinterpretation] = []
+    ranges: dict[str, tuple[Number, Number]] = {}
+    cases: list[dict[str, Number]] = []
+    swaps: list[str] | None = None
+    family: str = ""
+
+    expected: Verdict | None = None
+    against: str = ""
+    steps: list[str] = []
+    consequence: str = ""
+
+    @property
+    def requirements(self) -> list[str]:
+        """The conditions of `require`."""
+        return [self.require] if isinstance(self.require, str) else self.require
+
+
+class ClaimsFile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A claims file; the entries of its tables are decoded one by one."""
 
     title: str = ""
     seconds: Seconds = 30
     body: Any = None
-    variables: Table = {}
-    symbols: Table = {}
-    latex: Table = {}
+    variables: dict[str, Any] = {}
+    symbols: dict[str, Any] = {}
+    latex: dict[str, Any] = {}
     claims: list[Any] = []
-    signs: Lists = {}
-
-
-class Variable(msgspec.Struct, frozen=True):
-    """An entry of [variables] that is a table."""
-
-    meaning: str = ""
-    low: Number | None = None
-    high: Number | None = None
-    unit: Any = None
-
-
-class DefinedSymbol(msgspec.Struct, frozen=True):
-    """An entry of [symbols] that is a table."""
-
-    formula: Any = msgspec.field(default="", name="is")
-    meaning: str = ""
-    proposal: str = ""
-    unit: Any = None
-
-
-class OwnBody(msgspec.Struct, frozen=True):
-    """A body that the file defines itself."""
-
-    g: str
-    units: Table = {}
-
-
-class Reinterpretation(msgspec.Struct, frozen=True):
-    """An entry of `conventions`."""
-
-    what: str
-    contradicts: str
-    symbols: Table = {}
-
-
-class AsPrinted(msgspec.Struct, frozen=True):
-    """A claim as printed in the source.
-
-    equation  the number of the displayed equation to which it belongs
-    text      the equation as text, which keeps its form; if it is given in LaTeX, its reading
-    """
-
-    label: str
-    place: str = ""
-    says: str = ""
-    equation: str = ""
-    text: str = msgspec.field(default="", name="printed")
-    latex: str = ""
-    understood: str = ""
-    part: int | None = None
-    accepted: bool = True
-
-
-class Terms(msgspec.Struct, frozen=True):
-    """The entries of a claim that say what its equation means, and where it is to be true."""
-
-    unchecked: str = ""
-    body: Any = None
-    symbols: Table = {}
-    given: Texts | None = None
-    require: str | Texts = []
-    approach: str = msgspec.field(default="", name="as")
-    order: float | None = None
-    leading: bool | None = None
-    through: str = ""
-    allowed: Table | None = None
-    beyond: Table | None = None
-    conventions: Tables = []
-    ranges: Ranges = {}
-    cases: Points = []
-    swaps: Texts | None = None
-    family: str = ""
-
-
-class AsExpected(msgspec.Struct, frozen=True):
-    """What a person has found about a claim, and how it is compared.
-
-    verdict      the verdict that was found when a person last examined the claim
-    against      what the claim is compared with, in words
-    consequence  the effect of the error on a user's results
-    """
-
-    verdict: Verdict | None = msgspec.field(default=None, name="expected")
-    against: str = ""
-    steps: Texts = []
-    consequence: str = ""
+    signs: dict[str, list[str]] = {}

@@ -6,8 +6,8 @@ Out:  the Paper with all claims, and the readings that wait for the user.
 docs/claims.md describes the file.
 """
 
+import re
 import tomllib
-from collections.abc import Iterator, Mapping
 from functools import cache
 from os.path import isdir
 from pathlib import Path
@@ -18,7 +18,7 @@ from derive.check.claim_table import ClaimReader
 from derive.check.declarations import Declarations
 from derive.check.mistakes import Collected
 from derive.check.printed import Reading
-from derive.check.schema import ClaimsFile, Place, lines_in, record, value
+from derive.check.schema import ClaimsFile, Labelled, Place, decoded, lines_in
 from derive.command.errors import BadClaimsFile
 from derive.command.files import Unreadable, bytes_of
 
@@ -75,12 +75,10 @@ def source(path: Path) -> tuple[str, dict[str, Any]]:
         why = f"its tables are nested too deeply, and at most {_MAX_LEVELS} levels are allowed"
     except UnicodeDecodeError:
         why = "the file is not UTF-8 text"
-    except tomllib.TOMLDecodeError as error:
-        why = f"the file is not valid TOML ({error})"
-    except (Unreadable, ValueError) as error:
+    except Unreadable as error:
         why = str(error)
-        if "digits" in why:
-            why = "the file cannot be read (an integer has too many digits)"
+    except ValueError as error:
+        why = f"the file is not valid TOML ({error})"
     raise BadClaimsFile(str(path), why, remedy)
 
 
@@ -88,15 +86,15 @@ def _read(path: Path) -> tuple[Paper, list[Reading]]:
     """Read one file; errors in its structure are collected and reported together."""
     text, data = source(path)
     errors, place = Collected(), Place(str(path), lines_in(text))
-    for each in _texts(data):
-        with errors.noted():
-            is_plain = each.replace("\n", "").replace("\t", "").isprintable()
-            why = f"the string {each!r} contains a control character"
-            place.demand(is_plain, why, "remove it")
-    errors.demand_none()
-    file = record(ClaimsFile, data, place, errors.noted)
+    hidden = _unprintable(data)
+    place.demand(not hidden, f"the text {hidden!r} contains a control character", "remove it")
+    file = decoded(ClaimsFile, data, place, errors.noted)
     reader = ClaimReader(Declarations(file, place, errors))
-    claims = _claims(file.claims, place, reader, errors)
+    with errors.noted():
+        place.demand(bool(data.get("claims")), "the file has no [[claims]]", "add at least one")
+        why = f"the file has {len(file.claims)} claims, and at most {_MAX_CLAIMS} are allowed"
+        place.demand(len(file.claims) <= _MAX_CLAIMS, why, "split it")
+        claims = _claims(file.claims, place, reader, errors)
     if errors.errors:
         errors.errors += reader.mistakes
     errors.demand_none()
@@ -108,18 +106,11 @@ def _claims(
     given: list[Any], place: Place, reader: ClaimReader, errors: Collected
 ) -> tuple[Claim, ...]:
     """Read all claims; each must be a table with a label of its own."""
-    with errors.noted():
-        place.demand(bool(given), "the file has no [[claims]]", "add at least one")
-        why = f"the file has {len(given)} claims, and at most {_MAX_CLAIMS} are allowed"
-        place.demand(len(given) <= _MAX_CLAIMS, why, "split it")
     made, labels = list[Claim](), set[str]()
-    for number, each in enumerate(given if len(given) <= _MAX_CLAIMS else (), start=1):
+    for number, each in enumerate(given, start=1):
         at = place.at("claims", number)
         with errors.noted():
-            is_table = isinstance(each, dict)
-            remedy = "write [[claims]] before each claim"
-            at.demand(is_table, f"claim {number} is not a table", remedy)
-            label = value("label", each.get("label", ""), str, at.inside(f"claim {number}"))
+            label = decoded(Labelled, each, at.inside(f"claim {number}")).label
             why = f"two claims have the label {label!r}"
             at.demand(label not in labels, why, "give each claim a different label")
             labels.add(label)
@@ -127,14 +118,14 @@ def _claims(
     return tuple(made)
 
 
-def _texts(data: object) -> Iterator[str]:
-    """Yield all keys and texts of a file, at any nesting depth."""
-    left = [data]
-    while left:
-        each = left.pop()
-        if isinstance(each, str):
-            yield each
-        elif isinstance(each, Mapping):
-            left += [*each, *each.values()]
+def _unprintable(data: Any) -> str:
+    """Return the first key or text, at any nesting depth, that a terminal cannot show."""
+    found = [data]
+    for each in found:
+        if isinstance(each, dict):
+            found += [*each, *each.values()]
         elif isinstance(each, list):
-            left += each
+            found += each
+        elif isinstance(each, str) and not re.sub(r"[\n\t]", "", each).isprintable():
+            return each
+    return ""

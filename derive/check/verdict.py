@@ -11,10 +11,11 @@ from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from derive.check.claim import Claim, Convention, Verdict
+from derive.check.claim import Claim, Verdict
 from derive.check.correction import Repair, repaired
 from derive.check.diagnosis import diagnosis, where_true
 from derive.check.judge import Judged, Judging, Sides, judge, judge_as_printed, no_clock
+from derive.check.schema import Reinterpretation
 from derive.command.limit import LimitReached, LookAtClock, within
 
 Result = TypeVar("Result")
@@ -22,7 +23,7 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True)
 class Finding:
-    """A claim with its verdict.
+    """A claim with what was found about it.
 
     judged      the result for the equation as printed
     convention  the sign convention under which the claim holds, if there is one
@@ -35,9 +36,8 @@ class Finding:
     """
 
     claim: Claim
-    verdict: Verdict
     judged: Judged
-    convention: Convention | None = None
+    convention: Reinterpretation | None = None
     under: Judged | None = None
     repair: Repair | None = None
     tried: int = 0
@@ -46,24 +46,24 @@ class Finding:
     partly: str = ""
 
     @property
+    def verdict(self) -> Verdict:
+        """The verdict on the claim."""
+        return Verdict.CONVENTION if self.convention else self.judged.verdict
+
+    @property
     def as_expected(self) -> bool:
         """Whether the verdict equals the expected one; without one, whether the claim is true."""
-        wanted = self.claim.expected.verdict
+        wanted = self.claim.entry.expected
         return self.verdict == wanted if wanted else self.judged.good
-
-
-def check_all(claims: tuple[Claim, ...]) -> list[Finding]:
-    """Return the findings for all claims in order."""
-    return [check(claim) for claim in claims]
 
 
 def check(claim: Claim) -> Finding:
     """Return the verdict on one claim; if the work is interrupted, it is `unchecked`."""
     if claim.unchecked:
-        return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, claim.unchecked))
+        return Finding(claim, Judged(Verdict.UNCHECKED, claim.unchecked))
     if claim.meant.defined:
         why = "the file defines its symbols by this very equation, so nothing is compared"
-        return Finding(claim, Verdict.DEFINITION, Judged(Verdict.DEFINITION, why))
+        return Finding(claim, Judged(Verdict.DEFINITION, why))
     found, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
     judged = found or Judged(Verdict.UNCHECKED, stopped)
     if judged.verdict == Verdict.FAILS:
@@ -74,7 +74,7 @@ def check(claim: Claim) -> Finding:
         finding = _mended(claim, Judged(Verdict.FAILS, why))
         if finding.repair is not None or finding.convention is not None:
             return finding
-    return Finding(claim, judged.verdict, judged)
+    return Finding(claim, judged)
 
 
 def _mended(claim: Claim, judged: Judged) -> Finding:
@@ -82,17 +82,16 @@ def _mended(claim: Claim, judged: Judged) -> Finding:
 
     def search(look: LookAtClock) -> Finding:
         repair, tried = repaired(claim, look)
-        failed = Finding(claim, Verdict.FAILS, judged, repair=repair, tried=tried)
-        for convention in claim.meant.conventions:
-            meaning = {**claim.meant.meaning, **convention.meaning}
+        failed = Finding(claim, judged, repair=repair, tried=tried)
+        for convention, changed in claim.meant.conventions:
+            meaning = {**claim.meant.meaning, **changed}
             under = judge(claim, claim.meant.left, claim.meant.right, meaning, look)
             if under.good:
-                verdict = Verdict.CONVENTION
-                return replace(failed, verdict=verdict, convention=convention, under=under)
+                return replace(failed, convention=convention, under=under)
         return failed
 
     finding, stopped = _attempted(claim, search)
-    return finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
+    return finding or Finding(claim, judged, stopped=stopped)
 
 
 def _explained(finding: Finding) -> Finding:

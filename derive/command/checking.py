@@ -44,8 +44,8 @@ def accept_readings(file: Path | None, label: str | None) -> None:
     readings = [reading for reading in found if reading.understood]
     accepted = []
     for number, reading in enumerate(readings, 1):
-        click.echo(f"\n{number} of {len(readings)}: {reading.label}")
-        click.echo(f"  LaTeX       {reading.latex.strip()}")
+        click.echo(f"\n{number} of {len(readings)}: {reading.entry.label}")
+        click.echo(f"  LaTeX       {reading.entry.latex.strip()}")
         click.echo(f"  understood  {reading.understood}")
         if reading.accepted:
             click.echo(f"  in the file {reading.accepted}")
@@ -53,23 +53,20 @@ def accept_readings(file: Path | None, label: str | None) -> None:
             click.echo(f"  {key:<11} {entry}")
         if reading.why:
             click.echo(f"  unchecked   {reading.why}")
-        answer = click.prompt(
-            "Is this what is printed?",
-            type=click.Choice(["y", "n", "q"]),
-            default="n",
-            show_default=True,
-        )
+        answer = click.prompt("Is this what is printed? (y, n, q)", default="n").strip().lower()
         if answer == "q":
             break
         if answer == "y":
             accepted.append(reading)
+        elif answer != "n":
+            click.echo(f"  not accepted, because {answer!r} is not y")
     if accepted:
         accept(file, accepted)
     left = len(readings) - len(accepted)
     click.echo(f"{len(accepted)} accepted, {left} left")
     for reading in found:
         if not reading.understood:
-            click.echo(f"unchecked: {reading.label}: {reading.why}")
+            click.echo(f"unchecked: {reading.entry.label}: {reading.why}")
 
 
 def paper_of(file: Path | None, name: str | None) -> Paper:

@@ -292,7 +292,7 @@ def check(
     if accepting:
         accept_readings(file, explain)
         return
-    from derive.check import documents, report
+    from derive.check import documents
     from derive.check.verdict import check as judged
     from derive.command import view
     from derive.command.files import demand_page, put_page
@@ -314,12 +314,12 @@ def check(
     else:
         output_table(view.checked(findings))
     if page is not None:
-        put_page(documents.as_html(paper, findings), page, "--html")
+        put_page(documents.FORMS["html"](paper, findings), page, "--html")
         output(f"Wrote {path_of(page.resolve())}")
     elif form == "table" and explain is None:
         given = "" if file is None else f"{typed(file)} "
         output(f"More: {command()} check {given}--explain CLAIM, or --html PAGE for all claims")
-    wrong = report.unexpected(findings)
+    wrong = [finding for finding in findings if not finding.as_expected]
     if wrong:
         complain("Not as expected", "; ".join(finding.claim.name for finding in wrong))
         sys.exit(FELL_SHORT)

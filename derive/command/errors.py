@@ -162,22 +162,6 @@ class UnknownClaim(UserError):
     of them, or list all with `derive check`"""
 
 
-class NotAccepted(UserError):
-    """The claims file does not accept the way in which its LaTeX was read."""
-
-    facts = ("where", "understood", "accepted")
-
-    @property
-    def message(self) -> str:
-        """How the LaTeX was read, and how to accept this reading."""
-        accepts = f"accepts `{self.accepted}`" if self.accepted else "does not accept a reading"
-        return (
-            f"{self.where}: the LaTeX was understood as\n    {self.understood}\n"
-            f"but the file {accepts}; if this is what is printed, write\n"
-            f'    understood = "{self.understood}"'
-        )
-
-
 class BadOption(UserError):
     """{option} {given!r}: {why}; write {option} NAME=TEXT once for each parameter, such as {option}
     R={example}"""

@@ -136,11 +136,12 @@ def checked(findings: "Sequence[Finding]") -> Group:
     for finding in findings:
         verdict = _verdict_of(finding)
         claim = finding.claim
-        table.add_row(Text(claim.name, style="cyan"), verdict, claim.printed.says)
+        table.add_row(Text(claim.name, style="cyan"), verdict, claim.entry.says)
     parts: list[RenderableType] = [table]
-    for finding, remark in report.remarks(findings):
-        line = Text.assemble((finding.claim.name, "cyan"), ": ", _verdict_of(finding), ": ")
-        parts.append(line.append(remark))
+    for finding in findings:
+        if remark := report.remark(finding):
+            line = Text.assemble((finding.claim.name, "cyan"), ": ", _verdict_of(finding), ": ")
+            parts.append(line.append(remark))
     return Group(*parts, Text(report.summary(findings), style="bold"))
 
 
@@ -159,9 +160,9 @@ def _explained(finding: "Finding") -> list[RenderableType]:
     from derive.check import report
 
     entries = Table.grid(Column(style="bold", no_wrap=True), "", padding=(0, 2, 0, 0))
-    for heading, lines in report.explanation(finding):
-        for n, line in enumerate(lines):
-            entries.add_row("" if n else heading, Text(line))
+    for told in report.explanation(finding):
+        for n, line in enumerate(told.lines):
+            entries.add_row("" if n else told.name, Text(line))
     parts: list[RenderableType] = [Text(finding.claim.name, style="bold cyan"), entries]
     if rows := report.numbers(finding):
         table = Table("point", "left", "right", title="numbers", title_justify="left")

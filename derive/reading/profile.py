@@ -50,18 +50,8 @@ def _mistake(name: str) -> tuple[str, str] | None:
         if name != "x":
             parameter(name, "")
     except BadName as error:
-        return f"parameter {name!r} {error.why}", _other(name)
+        return f"parameter {name!r} {error.why}", "choose another name of letters and digits"
     return None
-
-
-def _other(name: str) -> str:
-    """The advice to choose another name for a parameter, with an example if there is one."""
-    other = f"{name.strip('_')}0"
-    try:
-        parameter(other, "")
-    except BadName:
-        return "choose another name of letters and digits"
-    return f"choose another name, such as {other}"
 
 
 OF_PROFILES = Words(FUNCTIONS_OF_PROFILES, deepest=30, mistake=_mistake)

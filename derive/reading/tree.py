@@ -14,8 +14,7 @@ without a mistake: the precedence is that of Python, except that &, | and ~ are 
 
 import ast
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 from derive.command.errors import BadText
@@ -25,9 +24,26 @@ from derive.reading.words import KEYWORDS, LOGICAL, PI, TRUE, Words, refusal
 _DIGITS = 40
 _POWER_OF_TEN = 100
 _LEADING_ZEROS = re.compile(r"^0+(?=\d)")
-_BINARY = ("+", "-", "*", "/", "**", "<", "<=", ">", ">=", "and", "&", "or", "|")
-_FUNCTION, _CONSTANT = "function", "constant"
-"""Kinds of names; x, parameters and symbols are of the kind NAME."""
+_BINARY = ("+", "-", "*", "/", "<", "<=", ">", ">=", "and", "&", "or", "|")
+_FUNCTION, _CONSTANT, _PREFIX = "function", "constant", "prefix"
+"""Further kinds of tokens; x, parameters and symbols are of the kind NAME."""
+_BEFORE_NOT = {(OPERATOR, sign) for sign in ("(", ",", "and", "or")} | {(_PREFIX, "not")}
+_EMPTY = ("the text is empty", "write a formula, such as x**2/(2*R)")
+_EARLY = ("the text ends too early", "add a number, a name or (")
+_NO_OPERAND = KEYWORDS | {"", "not"}
+_MISPLACED = {
+    "": ("a parenthesis is not closed", "add )"),
+    ")": ("this ) has no matching (", "leave it out, or add ("),
+    ",": (
+        "a comma is only allowed between the arguments of a function",
+        "use a point in decimal numbers, such as 2.5",
+    ),
+    **dict.fromkeys(
+        ("if", "else"),
+        ("{} is not allowed here", "write Piecewise((value, condition), (value, True))"),
+    ),
+}
+"""What is wrong with a token after an operand, and the remedy; the end of a text is empty."""
 
 
 @dataclass(frozen=True)
@@ -79,183 +95,114 @@ def parse(text: str, words: Words) -> Tree:
     kept = _Scan(text, words).whole()
     lines = "\n".join(_LEADING_ZEROS.sub("", token.text) for token in kept)
     root = ast.parse(f"({lines}\n)", mode="eval").body
-    return Tree(text, words, tuple(kept), root)
-
-
-@dataclass
-class _Open:
-    """An open parenthesis with the function before it, or a power whose exponent is being read."""
-
-    function: Token | None = None
-    commas: int = 0
-    is_power: bool = False
+    tree = Tree(text, words, tuple(kept), root)
+    for call in ast.walk(root):
+        if isinstance(call, ast.Call):
+            known, count = words.functions[ast.unparse(call.func)], len(call.args)
+            if not known.least <= count <= known.most:
+                remedy = "leave out the others" if count > known.most else "add the missing ones"
+                why = f"{ast.unparse(call.func)} takes {known.number}, but {count} are given"
+                raise refusal(text, tree.column(call), why, remedy)
+    return tree
 
 
 class _Scan:
-    """Check the tokens of a text with one token of lookahead."""
+    """Check the tokens of a text one after another, and keep them for Python.
+
+    levels: the number of powers and prefixes around the next operand, within each open parenthesis
+    """
 
     def __init__(self, text: str, words: Words) -> None:
         self.text, self.words = text, words
-        self._tokens: Iterator[Token] = tokens(text)
-        self.here = next(self._tokens)
         self.kept: list[Token] = []
-        self._open: list[_Open] = []
+        self.levels = [0]
 
     def whole(self) -> list[Token]:
         """Return the tokens for Python; raises BadText."""
-        if self.here.kind == END:
-            raise self._refusal("the text is empty", "write a formula, such as x**2/(2*R)")
-        while not self._operand() or self._operator():
-            pass
+        for here in tokens(self.text):
+            last = self.kept[-1] if self.kept else Token(OPERATOR, "(", 0)
+            if last.kind == _FUNCTION and not here.among("("):
+                raise self._refusal(last, f"{last.text} is a function", f"write {last.text}(...)")
+            if last.kind in (NUMBER, NAME, _CONSTANT) or last.among(")"):
+                if here.kind == END and len(self.levels) == 1:
+                    break
+                self._after_operand(here, last)
+            else:
+                self._operand(here, last)
         return self.kept
 
-    def _operand(self) -> bool:
-        """Read the prefixes and the next token of an operand; return whether it is complete."""
-        if not self.kept or self.kept[-1].among("(", ",", "and", "or"):
-            self._prefixes("not", "~")
-        self._prefixes("-", "+")
-        if self.here.among("("):
-            self._nest(_Open())
-            return False
-        if self.here.kind == NUMBER:
-            self._demand_short()
-            self._keep(NUMBER)
-            return True
-        if self.here.kind != NAME:
-            raise self._missing()
-        if self.here.text in self.words.functions:
-            name = self._keep(_FUNCTION)
-            if not self.here.among("("):
-                why, remedy = f"{name.text} is a function", f"write {name.text}(...)"
-                raise self._refusal(why, remedy, name.column)
-            self._nest(_Open(name))
-            return False
-        self._name()
-        return True
+    def _operand(self, here: Token, last: Token) -> None:
+        """Keep a token where an operand must begin: a prefix, or the operand's first token."""
+        is_not = here.among("not", "~") and (last.kind, last.text) in _BEFORE_NOT
+        if here.among("-", "+") or is_not:
+            self.levels[-1] += 1
+            self._keep(here, _PREFIX, "" if here.text == "+" else None)
+        elif here.among("("):
+            self.levels.append(0)
+            self._keep(here, OPERATOR)
+        elif here.kind == NUMBER:
+            self._demand_short(here)
+            self._keep(here, NUMBER)
+        elif here.kind == NAME:
+            self._keep(here, self._kind_of_name(here))
+        elif here.kind == END:
+            raise self._refusal(here, *(_EARLY if self.kept else _EMPTY))
+        elif here.among("|"):
+            why = "|x| cannot be used for an absolute value"
+            raise self._refusal(here, why, "write Abs(x)")
+        else:
+            why = f"a number or a name is missing before {here.text}"
+            raise self._refusal(here, why, f"add it, or leave out {here.text}")
 
-    def _operator(self) -> bool:
-        """Read what follows an operand; return whether another operand must follow."""
-        while self.here.among(")", ",", *_BINARY):
-            if self.here.among("**"):
-                self._nest(_Open(is_power=True))
-                return True
-            while self._open and self._open[-1].is_power:
-                self._open.pop()
-            if self.here.among(*_BINARY):
-                self._keep(OPERATOR, LOGICAL.get(self.here.text))
-                return True
-            if not self._open:
-                raise self._left_over()
-            if self.here.among(","):
-                self._comma(self._open[-1])
-                return True
-            self._close(self._open.pop())
-        if self.here.kind == END and all(each.is_power for each in self._open):
-            return False
-        raise self._left_over()
-
-    def _prefixes(self, inverting: str, other: str) -> None:
-        """Read prefixes, and keep one if their number inverts: `- -x` is x, `not ~x` is x."""
-        first, inverts = self.here, False
-        while self.here.among(inverting, other):
-            inverts ^= self.here.text != "+"
-            self._next()
-        if inverts:
-            self.kept.append(replace(first, kind=OPERATOR, text=inverting))
-
-    def _name(self) -> None:
-        """Read a name that is not followed by an argument."""
-        name = self.here.text
-        if name in KEYWORDS or name in LOGICAL.values():
-            raise self._keyword()
-        if name not in (PI, TRUE) and (mistake := self.words.mistake(name)):
-            raise self._refusal(*mistake)
-        token = self._keep(_CONSTANT if name in (PI, TRUE) else NAME)
-        if self.here.among("("):
-            raise self._refusal(
-                f"{name} is not a function that may be used here",
-                f"write {name}*(...) for a product, or use a function of the list below",
-                token.column,
-            )
-
-    def _nest(self, inner: _Open) -> None:
-        if len(self._open) == self.words.deepest:
-            raise self._refusal(
-                f"the formula is nested deeper than {self.words.deepest} levels here",
-                "write it with fewer parentheses",
-            )
-        self._open.append(inner)
-        self._keep(OPERATOR)
-
-    def _comma(self, inside: _Open) -> None:
-        """Read a comma: between arguments, or between the value and the condition of a pair."""
-        if inside.function is None and inside.commas:
-            raise self._left_over()
-        inside.commas += 1
-        self._keep(OPERATOR)
-
-    def _close(self, inside: _Open) -> None:
-        """Read a closing parenthesis; a function must have all its arguments."""
-        self._keep(OPERATOR)
-        if inside.function is None:
-            return
-        known, count = self.words.functions[inside.function.text], inside.commas + 1
-        if not known.least <= count <= known.most:
-            remedy = "leave out the others" if count > known.most else "add the missing ones"
-            why = f"{inside.function.text} takes {known.number}, but {count} are given"
-            raise self._refusal(why, remedy, inside.function.column)
-
-    def _demand_short(self) -> None:
-        """Refuse a long number before it is computed."""
-        mantissa, _, power = self.here.text.lower().partition("e")
-        if len(mantissa) > _DIGITS or len(power) > 4 or abs(int(power or 0)) > _POWER_OF_TEN:
-            raise self._refusal(
-                "the number is too long",
-                f"write at most {_DIGITS} digits and powers of ten up to {_POWER_OF_TEN}",
-            )
-
-    def _keep(self, kind: str, text: str | None = None) -> Token:
-        self.kept.append(replace(self.here, kind=kind, text=text or self.here.text))
-        self._next()
-        return self.kept[-1]
-
-    def _next(self) -> None:
-        self.here = next(self._tokens)
-
-    def _missing(self) -> BadText:
-        if self.here.kind == END:
-            return self._refusal("the text ends too early", "add a number, a name or (")
-        if self.here.among("|"):
-            return self._refusal("|x| cannot be used for an absolute value", "write Abs(x)")
-        return self._refusal(
-            f"a number or a name is missing before {self.here.text}",
-            f"add it, or leave out {self.here.text}",
-        )
-
-    def _left_over(self) -> BadText:
-        """The error for a token that cannot follow an operand."""
-        here = self.here
-        if here.kind == END:
-            return self._refusal("a parenthesis is not closed", "add )")
-        if here.kind == NAME and here.text in KEYWORDS | {"not"}:
-            return self._keyword()
-        if here.kind in (NUMBER, NAME) or here.among("("):
+    def _after_operand(self, here: Token, last: Token) -> None:
+        """Keep a token that follows an operand."""
+        is_inside = len(self.levels) > 1
+        if here.among("**"):
+            self.levels[-1] += 1
+        elif here.among(*_BINARY) or (here.among(",") and is_inside):
+            self.levels[-1] = 0
+        elif here.among(")") and is_inside:
+            self.levels.pop()
+        elif here.among("(") and last.kind in (NAME, _CONSTANT):
+            why = f"{last.text} is not a function that may be used here"
+            remedy = f"write {last.text}*(...) for a product, or use a function of the list below"
+            raise self._refusal(last, why, remedy)
+        elif here.text not in _NO_OPERAND and (here.kind != OPERATOR or here.among("(")):
             remedy = "write * for a product, such as 2*x"
-            return self._refusal("an operator is missing here", remedy)
-        if here.among(")"):
-            return self._refusal("this ) has no matching (", "leave it out, or add (")
-        if here.among(","):
-            return self._refusal(
-                "a comma is only allowed between the arguments of a function",
-                "use a point in decimal numbers, such as 2.5",
-            )
-        return self._refusal(f"{here.text} is not allowed here", "leave it out")
+            raise self._refusal(here, "an operator is missing here", remedy)
+        else:
+            raise self._misplaced(here)
+        self._keep(here, OPERATOR)
 
-    def _keyword(self) -> BadText:
-        remedy = "leave it out"
-        if self.here.text in ("if", "else"):
-            remedy = "write Piecewise((value, condition), (value, True))"
-        return self._refusal(f"{self.here.text} is not allowed here", remedy)
+    def _kind_of_name(self, here: Token) -> str:
+        if here.text in self.words.functions:
+            return _FUNCTION
+        if here.text in KEYWORDS or here.text in LOGICAL.values():
+            raise self._misplaced(here)
+        if here.text in (PI, TRUE):
+            return _CONSTANT
+        if mistake := self.words.mistake(here.text):
+            raise self._refusal(here, *mistake)
+        return NAME
 
-    def _refusal(self, why: str, remedy: str, column: int | None = None) -> BadText:
-        return refusal(self.text, self.here.column if column is None else column, why, remedy)
+    def _demand_short(self, here: Token) -> None:
+        """Refuse a long number before it is computed."""
+        mantissa, _, power = here.text.lower().partition("e")
+        if len(mantissa) > _DIGITS or len(power) > 4 or abs(int(power or 0)) > _POWER_OF_TEN:
+            remedy = f"write at most {_DIGITS} digits and powers of ten up to {_POWER_OF_TEN}"
+            raise self._refusal(here, "the number is too long", remedy)
+
+    def _keep(self, here: Token, kind: str, text: str | None = None) -> None:
+        """Keep a token under its kind; raise BadText if it is nested too deeply."""
+        if len(self.levels) - 1 + sum(self.levels) > self.words.deepest:
+            why = f"the formula is nested deeper than {self.words.deepest} levels here"
+            raise self._refusal(here, why, "write it with fewer parentheses")
+        text = LOGICAL.get(here.text, here.text) if text is None else text
+        self.kept.append(Token(kind, text, here.column))
+
+    def _misplaced(self, here: Token) -> BadText:
+        why, remedy = _MISPLACED.get(here.text, ("{} is not allowed here", "leave it out"))
+        return self._refusal(here, why.format(here.text), remedy)
+
+    def _refusal(self, at: Token, why: str, remedy: str) -> BadText:
+        return refusal(self.text, at.column, why, remedy)

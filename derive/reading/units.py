@@ -9,22 +9,24 @@ therefore a pair of exponents.  An exponent may contain a parameter, as in C |x|
     Units             printed equations, one after another -> the term that does not fit
 """
 
-import ast
 from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import dataclass
 from functools import reduce
 
 import sympy
-from sympy import Dummy, Expr, Integer, Integral, Pow, Rational, S, Symbol, expand
+from sympy import Dummy, Expr, Integral, Pow, S, Symbol, expand
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from derive.command.errors import BadText, BadUnit, DimensionMismatch, OpenUnits
 from derive.reading.improper import IMPROPER, as_integral
 from derive.reading.tree import parse
+from derive.reading.value import Meaning
 from derive.reading.words import FUNCTIONS, Words
 from derive.symbols import x
+
+_PRESSURE, _LENGTH = Symbol("Pa", positive=True), Symbol("m", positive=True)
 
 
 @dataclass(frozen=True)
@@ -51,28 +53,14 @@ class Dimension:
         return all(expand(gap).equals(0) is not False for gap in gaps)
 
     def __str__(self) -> str:
-        factors = [
-            name if power == 1 else f"{name}**{_in_parentheses(power)}"
-            for name, power in (("Pa", self.pressure), ("m", self.length))
-            if power != 0
-        ]
-        return " ".join(factors) or "1"
-
-
-def _in_parentheses(power: Expr) -> str:
-    return str(power) if power.is_Integer and power > 0 else f"({power})"
+        return str(_PRESSURE**self.pressure * _LENGTH**self.length)
 
 
 # ------------------------------------------------------------------ units as text
 
 
 NUMBER = Dimension()
-_UNITS = {
-    "m": Dimension(length=S.One),
-    "Pa": Dimension(pressure=S.One),
-    "N": Dimension(pressure=S.One, length=Integer(2)),
-    "rad": NUMBER,
-}
+_UNITS = {"Pa": _PRESSURE, "m": _LENGTH, "N": _PRESSURE * _LENGTH**2, "rad": S.One}
 _WORDS = Words({"sqrt": FUNCTIONS["sqrt"]}, deepest=20)
 
 
@@ -83,73 +71,26 @@ def parse_unit(text: str) -> Dimension:
     """
     if not isinstance(text, str):
         raise BadUnit(repr(text), "it is not a string")
-    if text.strip() in ("-", "1", ""):
+    if text.strip() in ("-", ""):
         return NUMBER
     try:
-        return _unit(parse(text, _WORDS).root, text)
+        tree = parse(text, _WORDS)
+        names = {name: Symbol(name, positive=True) for name in tree.names()}
+        powers = Meaning(tree, names | _UNITS).value(tree.root).as_powers_dict()
     except BadText:
         raise BadUnit(repr(text), "it is not a product of powers") from None
-
-
-def _unit(node: ast.expr, text: str) -> Dimension:
-    match node:
-        case ast.Name(id=name) if name in _UNITS:
-            return _UNITS[name]
-        case ast.Constant(value=int(number)) if number == 1 and number is not True:
-            return NUMBER
-        case ast.BinOp(left=left, op=ast.Mult(), right=right):
-            return _unit(left, text) * _unit(right, text)
-        case ast.BinOp(left=left, op=ast.Div(), right=right):
-            return _unit(left, text) * _unit(right, text) ** Integer(-1)
-        case ast.BinOp(left=left, op=ast.Pow(), right=right):
-            return _unit(left, text) ** _exponent(right, text)
-        case ast.Call(func=ast.Name(id="sqrt"), args=[inside], keywords=[]):
-            return _unit(inside, text) ** Rational(1, 2)
-    raise BadUnit(repr(text), f"{ast.unparse(node)!r} is not a known unit")
-
-
-def _exponent(node: ast.expr, text: str) -> Expr:
-    match node:
-        case ast.Constant(value=int(number)):
-            return Integer(number)
-        case ast.Name(id=name):
-            return Symbol(name, positive=True)
-        case ast.UnaryOp(op=ast.USub(), operand=operand):
-            return -_exponent(operand, text)
-        case ast.BinOp(left=left, op=operation, right=right):
-            first, second = _exponent(left, text), _exponent(right, text)
-            match operation:
-                case ast.Add():
-                    return first + second
-                case ast.Sub():
-                    return first - second
-                case ast.Mult():
-                    return first * second
-                case ast.Div() if second != 0:
-                    return first / second
-    raise BadUnit(repr(text), f"{ast.unparse(node)!r} is not an exponent")
+    exponents = set().union(*(exponent.free_symbols for exponent in powers.values()))
+    unknown = {*powers} - {S.One, _PRESSURE, _LENGTH} | exponents & {_PRESSURE, _LENGTH}
+    if unknown or "." in text:
+        other = ", ".join(sorted(map(str, unknown))) or "a decimal number"
+        raise BadUnit(repr(text), f"{other!r} is not a known unit")
+    return Dimension(powers[_PRESSURE], powers[_LENGTH])
 
 
 # ------------------------------------------------------------------ the dimension of a formula
 
 Call = tuple[tuple[Dimension, ...], Dimension]
 """The units of the arguments of a formula, and the unit of its value."""
-
-
-@dataclass
-class _Misfit(Exception):
-    """Two units that should be equal differ.
-
-    term    what has the unit `found`
-    beside  what has the unit `wanted`; empty if the term must be a number
-    where   the place of the term
-    """
-
-    found: Dimension
-    wanted: Dimension
-    term: object
-    beside: str
-    where: str
 
 
 class Units:
@@ -178,8 +119,8 @@ class Units:
         trial = copy(self)
         try:
             trial.common((left, right))
-        except _Misfit as misfit:
-            return trial._told(misfit)
+        except DimensionMismatch as wrong:
+            return f"the unit of {wrong.where} is {wrong.found}, but must be {wrong.expected}"
         vars(self).update(vars(trial))
         return ""
 
@@ -188,7 +129,7 @@ class Units:
         trial = copy(self)
         try:
             unit = trial._shown(trial._of_symbol(symbol))
-        except _Misfit:
+        except DimensionMismatch:
             return ""
         return "" if "?" in unit else unit
 
@@ -228,7 +169,7 @@ class Units:
         else:
             is_hyper = isinstance(expr, sympy.hyper)
             for each in (*expr.ap, *expr.bq, expr.argument) if is_hyper else expr.args:
-                self._demand_number(each, f"the argument of {expr.func}")
+                self._demand_number(each, f"the argument {each} of {expr.func}")
         return NUMBER
 
     def common(self, terms: Iterable[Expr], whole: sympy.Basic | None = None) -> Dimension | None:
@@ -240,13 +181,14 @@ class Units:
             if common is None:
                 common, first = found, term
             elif found is not None:
-                self.equate(found, common, term, f"{first}{inside}", f"{term}{inside}")
+                self.equate(found, common, f"{term}{inside}", str(first))
         return common
 
-    def equate(
-        self, found: Dimension, wanted: Dimension, term: object, beside: str = "", where: str = ""
-    ) -> None:
-        """Solve for an unknown power, so that two dimensions agree; raises _Misfit."""
+    def equate(self, found: Dimension, wanted: Dimension, where: str, beside: str = "") -> None:
+        """Solve for an unknown power, so that two dimensions agree.
+
+        Raises DimensionMismatch; `where` is what has the first, and `beside` what has the second.
+        """
         for gap in (found.pressure - wanted.pressure, found.length - wanted.length):
             left = expand(expand(gap).xreplace(self.solved))
             if unknown := sorted(left.atoms(Dummy), key=lambda power: power.dummy_index):
@@ -256,17 +198,17 @@ class Units:
                 table = {first: value}
                 self.solved = {d: expand(v.xreplace(table)) for d, v in self.solved.items()} | table
             elif left != 0 and left.equals(0) is False:
-                raise _Misfit(found, wanted, term, beside, where)
+                raise self._misfit(found, wanted, where, beside)
 
     def _demand_number(self, expr: Expr, where: str) -> None:
         if (found := self.of(expr)) is not None:
-            self.equate(found, NUMBER, expr, where=where)
+            self.equate(found, NUMBER, where)
 
     def _of_power(self, expr: Pow) -> Dimension:
         self._demand_number(expr.exp, f"the exponent of {expr}")
         base = self.of(expr.base) or NUMBER
         if expr.exp.has(x) and not base.is_known:
-            self.equate(base, NUMBER, expr.base, where=f"the base of {expr}")
+            self.equate(base, NUMBER, f"the base of {expr}")
             return NUMBER
         return base**expr.exp
 
@@ -281,14 +223,14 @@ class Units:
             self.known = {**self.known, symbol: own or unknown}
         elif own is not None:
             what = f"the meaning {meaning} of {symbol}"
-            self.equate(own, self.known[symbol], what, f"{symbol} as declared")
+            self.equate(own, self.known[symbol], what, "its declaration")
         return self.known[symbol]
 
     def _of_call(self, expr: Expr) -> Dimension:
         takes, value = self.calls[expr.func.__name__]
         for argument, wanted in zip(expr.args, takes, strict=True):
             if (found := self.of(argument)) is not None:
-                self.equate(found, wanted, argument, f"this argument of {expr.func}")
+                self.equate(found, wanted, f"the argument {argument} of {expr.func}")
         return value
 
     def _of_integral(self, expr: Integral) -> Dimension:
@@ -305,15 +247,15 @@ class Units:
         self.known = {**outside, **inside}
         return total
 
-    def _told(self, misfit: _Misfit) -> str:
-        """A misfit in words, with the units as far as they are known."""
-        found, wanted = self._shown(misfit.found), self._shown(misfit.wanted)
-        if not misfit.beside:
-            return f"{misfit.term} is in {found}, but {misfit.where} must be a number"
-        if "?" in found + wanted:
-            ratio = self._shown(misfit.found * misfit.wanted**S.NegativeOne)
-            return f"the unit of {misfit.term} is {ratio} times that of {misfit.beside}"
-        return f"{misfit.term} is in {found}, but {misfit.beside} is in {wanted}"
+    def _misfit(
+        self, found: Dimension, wanted: Dimension, where: str, beside: str
+    ) -> DimensionMismatch:
+        """A misfit, with the units as far as they are known."""
+        has, needs = self._shown(found), self._shown(wanted)
+        if beside and "?" in has + needs:
+            ratio = self._shown(found * wanted**S.NegativeOne)
+            return DimensionMismatch(f"{where} over {beside}", ratio, "1")
+        return DimensionMismatch(where, has, f"{needs}, as that of {beside}" if beside else needs)
 
     def _shown(self, unit: Dimension) -> str:
         powers = [expand(power).xreplace(self.solved) for power in (unit.pressure, unit.length)]
@@ -329,12 +271,7 @@ def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimensio
     """
     expr = sympy.sympify(expr, strict=True)
     assert expr.free_symbols <= dimensions.keys(), expr
-    try:
-        return Units(dimensions).of(expr)
-    except _Misfit as misfit:
-        argument = f"the argument {misfit.term} of"
-        where = misfit.where.replace("the argument of", argument, 1)
-        raise DimensionMismatch(where, str(misfit.found), str(misfit.wanted)) from None
+    return Units(dimensions).of(expr)
 
 
 def check(expr: Expr, unit: str, where: str, dimensions: Mapping[Symbol, Dimension]) -> None:
@@ -368,8 +305,8 @@ def units_of_profile(g: Expr, given: Mapping[str, str]) -> dict[str, str]:
         {p: Dimension(length=power) for p, power in ({x: S.One} | powers | unknown).items()}
     )
     try:
-        units.equate(units.of(g) or length, length, g)
-    except _Misfit:
+        units.equate(units.of(g) or length, length, "g")
+    except DimensionMismatch:
         units.solved = dict.fromkeys(unknown.values(), S.One)
     solved = {p: units.solved.get(power, power) for p, power in unknown.items()}
     open_ = [p for p, power in solved.items() if power.has(Dummy)]
@@ -383,14 +320,9 @@ def units_of_profile(g: Expr, given: Mapping[str, str]) -> dict[str, str]:
 
 def _power_of_metre(parameter: Symbol, power: Expr, g: Expr) -> str:
     """m**power as text; the unit of a number is rad if it is a slope or an angle, otherwise -."""
-    power = power.factor()
     if power == 0:
         return "rad" if _is_angle(parameter, g) else "-"
-    if power.is_Rational and power < 0:
-        return f"1/{_power_of_metre(parameter, -power, g)}"
-    if power == 1:
-        return "m"
-    return f"m**{power}" if power.is_Integer else f"m**({power})"
+    return str(_LENGTH ** power.factor())
 
 
 def _is_angle(parameter: Symbol, g: Expr) -> bool:

@@ -61,13 +61,9 @@ class Meaning:
                 return self._piecewise(node)
             case ast.Call(func=ast.Name(id=name)):
                 return self.call(node, name)
-            case ast.Tuple():
-                raise self._pair(node)
-        raise self.refusal(
-            node,
-            "a condition cannot be used as a value",
-            "write Piecewise((value, condition), ...) to choose a value by a condition",
-        )
+        what = "a pair" if isinstance(node, ast.Tuple) else "a condition"
+        why = f"{what} cannot be used as a value"
+        raise self.refusal(node, why, "write Piecewise((value, condition), ...), or use a point")
 
     def named(self, node: ast.Name) -> Expr:
         """The symbol of a name."""
@@ -96,7 +92,7 @@ class Meaning:
     def _piecewise(self, node: ast.Call) -> Expr:
         pairs = []
         for pair in node.args:
-            if not isinstance(pair, ast.Tuple):
+            if not isinstance(pair, ast.Tuple) or len(pair.elts) != 2:
                 why = "the arguments of Piecewise must be pairs"
                 raise self.refusal(pair, why, "write (value, condition), ...")
             pairs.append((self.value(pair.elts[0]), self.condition(pair.elts[1])))
@@ -114,8 +110,6 @@ class Meaning:
                 return self.step(node, reduce, _OPERATORS[type(joint)], conditions)
             case ast.Compare():
                 return self._comparison(node)
-            case ast.Tuple():
-                raise self._pair(node)
         why = "a value cannot be used as a condition"
         raise self.refusal(node, why, "write a condition such as x < b, or True")
 
@@ -146,13 +140,6 @@ class Meaning:
         if why:
             raise self.refusal(at, f"the result {why}", "write another formula")
         return result
-
-    def _pair(self, node: ast.Tuple) -> BadText:
-        return self.refusal(
-            node,
-            "a pair is only allowed in a Piecewise",
-            "write Piecewise((value, condition), ...), or use a point in decimal numbers",
-        )
 
     def refusal(self, at: ast.expr | int, why: str, remedy: str) -> BadText:
         """The error for the mistake at a node or a column."""

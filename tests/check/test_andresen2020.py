@@ -90,15 +90,15 @@ def test_broken_claims_are_found(name: str) -> None:
     """At least five ways a claim; survivors are named with the reason, and are no errors."""
     claims, surviving, few = section(name).claims, {}, {}
     for claim in claims:
-        true = claim.expected.verdict in (Verdict.HOLDS, Verdict.NUMERICAL)
+        true = claim.entry.expected in (Verdict.HOLDS, Verdict.NUMERICAL)
         if not true or claim.meant.is_inequality:
             continue  # an inequality that stays true is no error
         broken = list(mutants(claim))
         if len(broken) < FEWEST:
-            few[claim.printed.label] = len(broken)
+            few[claim.entry.label] = len(broken)
         for mutant in broken:
             if survives(mutant):
-                surviving[claim.printed.label, mutant.what] = mutant
+                surviving[claim.entry.label, mutant.what] = mutant
     assert set(surviving) <= SAME.keys(), surviving.keys() - SAME.keys()
     known = {"section 4.1/no moment/alpha", "section 4.1/no moment/gamma"}  # 0 and 1
-    assert set(few) == known & {claim.printed.label for claim in claims}
+    assert set(few) == known & {claim.entry.label for claim in claims}

@@ -11,7 +11,7 @@ from derive.check.claim import Claim, Verdict
 from derive.check.diagnosis import simple
 from derive.check.judge import Judged
 from derive.check.report import explanation, summary
-from derive.check.schema import AsPrinted
+from derive.check.schema import Entry
 from derive.check.verdict import Finding
 from derive.command.files import MARK
 from derive.reading.formula import Names, equation
@@ -126,8 +126,10 @@ def test_a_geometry_file_is_a_body_and_is_not_executed(
         ("(", "is not valid Python"),
         (
             GEOMETRY.replace('"half"', '"b"'),
-            "the parameter 'half' is assigned to a Python variable",
+            "it does not define half = parameter('half', ..., unit=...)",
         ),
+        (GEOMETRY.replace('"m"', "{[]: 1}"), "it does not define half = parameter('half',"),
+        (GEOMETRY.replace('"half",', "{[]: 1},"), "it does not define half = parameter('half',"),
         (GEOMETRY.replace("x**2", "__import__('os').getcwd()"), "__import__"),
     ],
 )
@@ -136,6 +138,17 @@ def test_a_geometry_file_that_is_none(tmp_path: Path, text: str, why: str) -> No
     done = asking.run(asking.written(tmp_path, 'body = "own.py"\n' + asking.claim("f = f")))
     assert done.exit_code == 2
     assert why in done.output
+
+
+@pytest.mark.parametrize("given", ["../own.py", "./own.py", "inner/own.py"])
+def test_a_geometry_file_lies_in_the_same_folder(tmp_path: Path, given: str) -> None:
+    for folder in (tmp_path, tmp_path / "claims", tmp_path / "claims" / "inner"):
+        folder.mkdir(exist_ok=True)
+        (folder / "own.py").write_text(GEOMETRY)
+    text = f"body = '{given}'\n" + asking.claim("f = f")
+    done = asking.run(asking.written(tmp_path / "claims", text))
+    assert done.exit_code == 2
+    assert "nor a geometry file in the same folder" in done.output
 
 
 MODULI = """
@@ -226,15 +239,35 @@ def test_the_page_holds_every_claim(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("form", "printed"),
+    [
+        ("markdown", r"&lt;script&gt; \| \_a\_ \\input"),
+        ("latex", r"<script> | \_a\_ \textbackslash input"),
+        ("html", "&lt;script&gt; | _a_ \\input"),
+    ],
+)
+def test_text_of_a_claim_is_only_text_in_a_document(
+    tmp_path: Path, form: str, printed: str
+) -> None:
+    told = "says = '<script> | _a_ \\input'"
+    text = HEAD + asking.claim(
+        "P = 2*load(a, a)", f"{told}\nconsequence = '<script> | _a_ \\input'"
+    )
+    document = asking.run(asking.written(tmp_path, text), "--format", form).stdout
+    assert document.count(printed) == 3
+    assert form == "latex" or "<script" not in document
+
+
+@pytest.mark.parametrize(
     ("label", "number", "name"),
     [("eqn:Knc/1", "", "eq. (8), here"), ("m/n", "(8)", "eq. (8), here"), ("area", "", "area")],
 )
 def test_readers_see_the_number_of_an_equation_and_no_latex(
     label: str, number: str, name: str
 ) -> None:
-    claim = Claim(AsPrinted(label, "eq. (8), here", "so", number))
+    claim = Claim(Entry(label, "eq. (8), here", "so", number))
     assert claim.name == name
-    explained = str(explanation(Finding(claim, Verdict.HOLDS, Judged(Verdict.HOLDS, ""))))
+    explained = str(explanation(Finding(claim, Judged(Verdict.HOLDS, ""))))
     assert claim.name == label or label not in explained
     assert claim.is_called(label) and claim.is_called(name) and not claim.is_called("(9)")
     assert claim.is_called("(8)") == claim.is_called("eq. (8)") == bool(number)
@@ -242,5 +275,5 @@ def test_readers_see_the_number_of_an_equation_and_no_latex(
 
 def test_numbers_of_verdicts_are_grammatical() -> None:
     verdicts = (Verdict.HOLDS, Verdict.FAILS, Verdict.FAILS, Verdict.NUMERICAL)
-    findings = [Finding(Claim(AsPrinted("it", "here", "so")), v, Judged(v, "")) for v in verdicts]
+    findings = [Finding(Claim(Entry("it", "here", "so")), Judged(v, "")) for v in verdicts]
     assert summary(findings) == "4 claims: 1 holds, 1 numerical, 2 fail"

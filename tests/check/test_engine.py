@@ -9,9 +9,7 @@ from derive.check.claim import (
     SCALE,
     SIGNED,
     AsMeant,
-    Bound,
     Claim,
-    Convention,
     Paper,
     Range,
     Verdict,
@@ -20,7 +18,7 @@ from derive.check.draw import points, variables
 from derive.check.numbers import both
 from derive.check.repair import edits, swappable
 from derive.check.report import evidence
-from derive.check.schema import AsPrinted
+from derive.check.schema import Entry, Reinterpretation
 from derive.check.verdict import check
 from derive.check.zero import vanishes
 from derive.command.limit import LimitReached
@@ -35,7 +33,7 @@ s, w = symbols("s w", real=True)
 def claim(left: object, right: object, **more: object) -> Claim:
     seconds = more.pop("seconds", None)
     meant = AsMeant(left=left, right=right, **more)  # type: ignore[arg-type]
-    return Claim(AsPrinted("it", "here", "so"), meant, seconds=seconds)  # type: ignore[arg-type]
+    return Claim(Entry("it", "here", "so"), meant, seconds=seconds)  # type: ignore[arg-type]
 
 
 # ------------------------------------------------------------------ verdicts
@@ -75,12 +73,12 @@ def test_what_cannot_be_mended_fails_all_the_same() -> None:
 
 
 def test_a_map_of_signs_that_helps_makes_a_convention() -> None:
-    turned = Convention("a downward", {a: -u}, "eq. (0), where a is upward")
-    finding = check(claim(a, -b, meaning={a: u, b: u}, conventions=(turned,)))
+    turned = Reinterpretation("a downward", "eq. (0), where a is upward")
+    finding = check(claim(a, -b, meaning={a: u, b: u}, conventions=((turned, {a: -u}),)))
     assert finding.verdict == Verdict.CONVENTION
     assert finding.convention is turned
     assert finding.repair is not None
-    finding = check(claim(a, 3 * b, meaning={a: u, b: u}, conventions=(turned,)))
+    finding = check(claim(a, 3 * b, meaning={a: u, b: u}, conventions=((turned, {a: -u}),)))
     assert finding.verdict == Verdict.FAILS
 
 
@@ -139,7 +137,7 @@ def test_a_bound_is_judged_off_it(relation: Relation, verdict: Verdict) -> None:
     """a <= b for a = u b is right below u = 1 and wrong above; the turned one is neither."""
     made = {
         "meaning": {a: v, b: v},
-        "reached": Bound({a: v * u}, {a: v / u}),
+        "reached": ({a: v * u}, {a: v / u}),
         "ranges": {u: Range(0.05, 0.95)},
     }
     assert check(claim(a, b, relation=relation, **made)).verdict == verdict
@@ -167,7 +165,7 @@ def test_points_are_the_same_on_every_machine() -> None:
     assert len(finding.judged.pairs) == 1
     finding = check(claim(a, b, meaning={a: u, b: u}, cases=({u: "1"}, {u: "2.5"})))
     assert len(finding.judged.pairs) == 2
-    assert "in 2 cases" in finding.judged.why
+    assert "only in 2 prescribed cases" in finding.judged.why
 
 
 @pytest.mark.parametrize(

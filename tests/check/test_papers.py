@@ -175,4 +175,4 @@ def test_a_factor_with_a_unit_that_is_dropped_or_doubled_is_named(
 @pytest.mark.parametrize("more", ["", "require = '('", "ranges = { Q = [0, 1] }"])
 def test_the_term_that_does_not_fit_is_named(tmp_path: Path, more: str) -> None:
     (it,) = told(tmp_path, UNITS + claim("Q = f*P + f*P*a", more))
-    assert "P*a*f is in Pa m**2" in it["units"]
+    assert "P*a*f in P*a*f + P*f is Pa*m**2, but must be Pa*m" in it["units"]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from derive.check.claim import Verdict
-from derive.check.report import corrected, evidence, remarks
+from derive.check.report import corrected, evidence, remark
 from derive.check.verdict import Finding
 from tests.check import asking
 
@@ -111,7 +111,7 @@ def test_it_is_told_where_a_false_claim_is_true(
         assert finding.partly.startswith("true at ")
         assert where in finding.partly
         told = corrected(finding) or finding.diagnosis or "no correction was found"
-        assert remarks([finding])[0][1] == f"{told}; {finding.partly}"
+        assert remark(finding) == f"{told}; {finding.partly}"
         assert finding.partly in evidence(finding)
 
 

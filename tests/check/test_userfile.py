@@ -10,16 +10,14 @@ from sympy import Symbol, symbols
 
 from derive.check.accept import accept
 from derive.check.printed import Reading
-from derive.check.schema import AsExpected, AsPrinted, ClaimsFile, Terms
+from derive.check.schema import ClaimsFile, Entry
 from derive.check.userfile import open_readings
 from derive.command.errors import BadFormula
 from derive.reading.formula import Names, equation, formula
 from tests.check.asking import run, told, written
 
 KEYS = set(ClaimsFile.__struct_encode_fields__)
-OF_A_CLAIM = {
-    key for kind in (AsPrinted, Terms, AsExpected) for key in kind.__struct_encode_fields__
-}
+OF_A_CLAIM = set(Entry.__struct_encode_fields__)
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "cattaneo_mindlin.toml"
 PAGE = (ROOT / "docs" / "claims.md").read_text()
@@ -117,8 +115,12 @@ BAD = {
         "nested too deeply, and at most 8 levels",
     ),
     "no claims": (HEAD, "the file has no [[claims]]"),
-    "numbers for claims": ("claims = [1, 2]\n", "claim 1 is not a table", "claim 2 is not"),
-    "symbol is a list": (CIRCLE.replace('"r"', "[1]", 1), "the value of the symbol 'R' is [1]"),
+    "numbers for claims": (
+        "claims = [1, 2]\n",
+        "claim 1: 1 is not allowed; it must be a table",
+        "claim 2: 2 is not",
+    ),
+    "symbol is a list": (CIRCLE.replace('"r"', "[1]", 1), "symbol 'R': is = [1] is not allowed"),
     "name of a function": (CIRCLE.replace("R =", "sin ="), "'sin' is reserved"),
     "unit": (CIRCLE.replace("high = 0.9", "high = 0.9, unit = 'furlong'"), "unit such as N/m"),
     "claims no list": (HEAD + "\n[claims]\n", "the file has no [[claims]]"),
@@ -128,8 +130,11 @@ BAD = {
     "unknown body": ('body = "sphere"\n' + CIRCLE, "not in the library"),
     "bad name": (CIRCLE.replace("[symbols]", '[symbols]\n"a b" = "r"'), "not a valid name"),
     "a meaning": (CIRCLE.replace("high = 0.9", "high = 0.9, meaning = 5"), "meaning = 5 is not"),
-    "a label": (HEAD + '[[claims]]\nlabel = 5\nprinted = "A = R"\n', "label = 5 is not a string"),
-    "truth as a bound": (CIRCLE.replace("low = 0.1", "low = false"), "no valid range"),
+    "a label": (
+        HEAD + '[[claims]]\nlabel = 5\nprinted = "A = R"\n',
+        "label = 5 is not allowed",
+    ),
+    "truth as a bound": (CIRCLE.replace("low = 0.1", "low = false"), "low must be a number"),
     "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no valid range"),
     "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
     "control character": (CIRCLE.replace('"area"', '"a\\u001b[2J"'), "control character"),
@@ -137,8 +142,8 @@ BAD = {
     "bad symbol": (CIRCLE.replace('R = "r"', 'R = "pi*q"'), "does not define q"),
     "symbol of a parameter": (
         'body = "hertz"\n[variables]\nl = "l"\n[symbols]\nR = "2*l"\n' + one("R = 2*l"),
-        "claims.toml:5: the symbol",
-        "'R' is already a parameter of the body",
+        "claims.toml:5: symbol 'R'",
+        "already a parameter of the body",
     ),
     "symbol of no body": (
         HEAD + 'P = "lod(r, r)"\n' + one("body = 'none'\nprinted = 'r = r'"),
@@ -147,7 +152,7 @@ BAD = {
     "all at once": (
         CIRCLE.replace('R = "r"', 'R = "pi*q"').replace("low = 0.1", "low = 3")
         + 'colour = "red"\nexpected = "maybe"\n[[claims]]\nlabel = "next"\nprinted = "A = ("\n',
-        *("5 errors", "claims.toml:5: variable 'k'", "claims.toml:7, symbols"),
+        *("6 errors", "claims.toml:5: variable 'k'", "claims.toml:7, symbols"),
         *("claims.toml:9: claim 'area'", "claims.toml:14, claim 'next'"),
     ),
 }
@@ -193,12 +198,16 @@ def test_a_key_of_a_claim_with_a_value_of_another_type(key: str, tmp_path: Path)
 
 BAD_CLAIMS = {
     "unknown key": (CIRCLE + 'colour = "red"\n', "the key 'colour' is unknown"),
+    "two mistakes": (
+        CIRCLE + 'colour = "red"\nfamily = 3\n',
+        "; family = 3 is not allowed: family",
+    ),
     "no equation": (CIRCLE.replace("printed", "says"), "`printed` and `latex`"),
     "two relations": (CIRCLE.replace("pi*R", "R = 1*R"), "two relations"),
     "unknown function": (CIRCLE.replace("pi*R", "eval(R)*R"), "not a function"),
     "deep": (CIRCLE.replace("pi*R", "(" * 60 + "R"), "nested deeper"),
-    "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "not a verdict"),
-    "conventions": (CIRCLE + "conventions = 3\n", "not a list"),
+    "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "expected must be one of holds, "),
+    "conventions": (CIRCLE + "conventions = 3\n", "conventions must be a list"),
     "key of a convention": (
         CIRCLE + 'conventions = [{ what = "w", contradicts = "c", symbol = 1 }]\n',
         "'symbol'",
@@ -215,20 +224,21 @@ BAD_CLAIMS = {
     "require": (CIRCLE + "require = 'q > 0'\n", "require: the claims file does not define q"),
     "limit": (CIRCLE + "as = 'r - 0'\n", "as: this is not a limit"),
     "order": (CIRCLE + "order = 2\n", "`as` is missing: give `order` as a number"),
-    "given a table": (CIRCLE + "given = [{ a = 1 }]\n", "given is not a list of strings"),
+    "given a table": (CIRCLE + "given = [{ a = 1 }]\n", "given[0] must be a text"),
     "never": (CIRCLE + "require = 'r < 0'\n", "its conditions are never satisfied"),
     "part": (CIRCLE.replace("printed", "latex") + "part = 9\n", "part = 9"),
     "given": (
         CIRCLE + "given = ['nothing']\n",
         "given: 'nothing' is not the label of an earlier claim",
     ),
-    "no flag": (
-        CIRCLE + "leading = false\n",
-        "leading = False is not allowed",
+    "symbol": (CIRCLE + "symbols = { R = true }\n", "symbols[...] must be a number or a text"),
+    "bound": (
+        CIRCLE + "allowed = { r = 1979-05-27 }\nbeyond = { r = 'k' }\n",
+        "allowed[...] must be",
     ),
-    "symbol": (CIRCLE + "symbols = { R = true }\n", "'R' is True, which is not a string"),
-    "bound": (CIRCLE + "allowed = { r = 1979-05-27 }\nbeyond = { r = 'k' }\n", "not a string"),
-    "range": (CIRCLE + "ranges = { r = [false, true] }\n", "ranges does not give two ends"),
+    "value of no variable": (CIRCLE + "cases = [{ q = 1 }]\n", "cases: 'q' is not a variable"),
+    "a case with a gap": (CIRCLE + "cases = [{ k = 0.5 }]\n", "cases: r has no value: give every"),
+    "range": (CIRCLE + "ranges = { r = [false, true] }\n", "ranges[...][0] must be a number"),
 }
 
 
@@ -427,8 +437,11 @@ def test_readings_are_accepted_one_by_one(tmp_path: Path) -> None:
     path = written(tmp_path, TO_ACCEPT)
     assert "0 accepted, 2 left" in run(path, "--accept", answers="n\nq\n").output
     assert path.read_text() == TO_ACCEPT
+    done = run(path, "--accept", answers="all\n\n")
+    assert "'all' is not y" in done.output and "0 accepted, 2 left" in done.output
+    assert path.read_text() == TO_ACCEPT
     assert "1 accepted, 1 left" in run(path, "--accept", answers="n\ny\n").output
-    assert [each.label for each in open_readings(path)] == ["first"]
+    assert [each.entry.label for each in open_readings(path)] == ["first"]
     assert "1 accepted, 0 left" in run(path, "--accept", answers="y\n").output
     assert run(path).exit_code == 0
     before, after = (tomllib.loads(text)["claims"] for text in (TO_ACCEPT, path.read_text()))
@@ -490,7 +503,7 @@ def test_what_cannot_be_written_is_left_as_it_was(tmp_path: Path) -> None:
 def test_an_acceptance_changes_nothing_else(tmp_path: Path, text: str, wanted: str) -> None:
     path = tmp_path / "claims.toml"
     path.write_bytes(text.encode())
-    accept(path, [Reading(1, "a", "A = R", "A = R")])
+    accept(path, [Reading(1, Entry("a", latex="A = R"), "A = R")])
     assert path.read_bytes().decode() == wanted
 
 

@@ -134,15 +134,15 @@ GRAMMAR = [
 ]
 
 NAMES = [
-    ("n*x", 0, "parameter 'n' is reserved by the theory", "such as n0"),
+    ("n*x", 0, "parameter 'n' is reserved by the theory", "letters and digits"),
     ("x*w_1", 2, "reserved by the theory", "letters and digits"),
-    ("_b*x", 0, "cannot be used as a name", "such as b0"),
-    ("Geometry*x", 0, "used by the geometry file itself", "Geometry0"),
+    ("_b*x", 0, "cannot be used as a name", "letters and digits"),
+    ("Geometry*x", 0, "used by the geometry file itself", "letters and digits"),
 ]
 
 MEANING = [
     ("x < b", 2, "a condition cannot be used as a value", "Piecewise"),
-    ("(x, b)", 0, "a pair is only allowed in a Piecewise", "Piecewise"),
+    ("(x, b)", 0, "a pair cannot be used as a value", "Piecewise"),
     ("Piecewise(x)", 10, "must be pairs", "(value, condition)"),
     ("Piecewise((x, x and b))", 14, "a value cannot be used as a condition", "x < b"),
     ("Piecewise((x, 1 < 2))", 16, "compares two constants", "compare x"),

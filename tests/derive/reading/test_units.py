@@ -103,6 +103,6 @@ def test_terms_that_do_not_agree_are_refused(expr: object) -> None:
 def test_a_mismatch_says_what_was_found_and_what_is_needed() -> None:
     with pytest.raises(DimensionMismatch) as caught:
         check(length * stress, "Pa", "the left-hand side", HELD)
-    expected = DimensionMismatch("the left-hand side", "Pa m", "Pa")
+    expected = DimensionMismatch("the left-hand side", "Pa*m", "Pa")
     assert caught.value.message == expected.message
     assert "check the units" in caught.value.message
