@@ -11,7 +11,9 @@
     tending        claim about a limit       whether the sides approach each other, and how fast
     diagnosis      false equation            by what its sides differ, and where it is true
     judge          two sides                 whether they agree, with the evidence for it
+    intervals      inequality                whether it is true over the whole ranges of variables
     correction     false claim               the simplest change that makes it true
+    basis          true claim                what its verdict rests on: the body or definitions
     verdict        claim                     Finding: verdict, evidence, corrected equation
     report         findings                  evidence, errata and remarks in words; JSON
     documents      findings                  Markdown, LaTeX and HTML, by templates

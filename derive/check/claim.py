@@ -8,6 +8,7 @@ stick, or another symbol.  A change of sign is an ordinary entry of this mapping
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from typing import Any
 
 from mpmath import mpf
@@ -58,6 +59,20 @@ class Rounded:
     power: int
 
 
+class Basis(StrEnum):
+    """What the verdict on a claim rests on."""
+
+    BODY = "the body"
+    DEFINITIONS = "your definitions"
+    GIVEN = "given"
+    MATHEMATICS = "mathematics"
+
+    @property
+    def word(self) -> str:
+        """The last word, for tables."""
+        return self.split()[-1]
+
+
 @dataclass(frozen=True)
 class AsMeant:
     """The comparison that a claim stands for.
@@ -77,7 +92,9 @@ class AsMeant:
     conditions   conditions, in our variables, that every point must satisfy
     cases        the points to use, with numbers as text, if more would take too long
     family       claims of one family share their points, so that integrals are computed once
-    defined      whether the file's definitions make both sides the same expression
+    basis        what the verdict rests on, unless the body's formulas turn out not to matter
+    called       the sides to compare, in our variables, with the body's formulas as functions
+    given        the claims that are taken as true
     rounded      the constant that is printed rounded, if there is exactly one
     swaps        symbols that may have been confused with each other
     unit_of      the units of the names in the equation and of the variables, where they are known
@@ -96,7 +113,9 @@ class AsMeant:
     conditions: tuple[Boolean, ...] = ()
     cases: tuple[Mapping[Symbol, str], ...] = ()
     family: str = ""
-    defined: bool = False
+    basis: Basis = Basis.MATHEMATICS
+    called: tuple[Expr, ...] = ()
+    given: tuple["Claim", ...] = ()
     rounded: Rounded | None = None
     swaps: tuple[Symbol, ...] = ()
     unit_of: Mapping[Symbol, str] = field(default_factory=dict)

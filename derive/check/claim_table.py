@@ -4,17 +4,18 @@ In:   the table, and the declarations of the file.
 Out:  the Claim, which is unchecked with the reason if an entry is wrong or a meaning is missing.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 from msgspec.structs import replace as with_entries
 from sympy import Expr, Integral, Limit, Rational, Symbol, false, true
+from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
-from derive.check.claim import SIGNED, AsMeant, Claim, Meaning, Range, Rounded
+from derive.check.claim import SIGNED, AsMeant, Basis, Claim, Meaning, Range, Rounded
 from derive.check.context import (
     PLACES,
     Context,
@@ -39,7 +40,9 @@ from derive.reading.formula import (
     equation,
     rounded_in,
     unknown,
+    usable,
 )
+from derive.reading.formula import sides as sides_of
 from derive.reading.improper import IMPROPER
 from derive.reading.relation import Relation
 
@@ -55,7 +58,8 @@ class ClaimReader:
     declared: Declarations
     readings: list[Reading] = field(default_factory=list)
     mistakes: list[UserError] = field(default_factory=list)
-    _read: dict[str, tuple[Expr, Expr]] = field(default_factory=dict)
+    _read: dict[str, tuple[Relation, str, str]] = field(default_factory=dict)
+    _made: dict[str, Claim] = field(default_factory=dict)
 
     def claim(self, number: int, given: Mapping[str, Any], place: Place) -> Claim:
         """Return a claim, which must have a label; `number` counts the claims from 1."""
@@ -76,16 +80,28 @@ class ClaimReader:
                 place, lambda: self.declared.context(place, entry.body, entry.symbols)
             )
             claim = replace(claim, units=context.mismatch(claim.text, place))
-            return limit.read(place, lambda: self._claim(number, claim, place, context))
+            made = limit.read(place, lambda: self._claim(number, claim, place, context))
         except UserError as error:
             self.mistakes.append(error)
-            return self._unread(number, claim, reason(error, place))
+            made = self._unread(number, claim, reason(error, place))
+        self._made[claim.entry.label] = made
+        return made
 
     def _unread(self, number: int, claim: Claim, why: str) -> Claim:
         """Return an unchecked claim, and record that its LaTeX cannot be read."""
         if claim.entry.latex:
             self.readings.append(Reading(number, claim.entry, "", why))
         return replace(claim, unchecked=why)
+
+    def _redefined(self, entry: Entry, place: Place, changed: Mapping[str, Any]) -> Context:
+        """Return the context with the symbols that the given claims define, and others changed."""
+        given = self._given(entry.given or (), place.inside("given"))
+        own = {**entry.symbols, **changed}
+        known = {**self.declared.symbols, **own}
+        own |= {name: formula for name, formula in given.items() if not known.get(name)}
+        context = self.declared.context(place, entry.body, own, entry.given is not None)
+        others = {name: formula for name, formula in given.items() if name not in own}
+        return context.replaced(others, place.inside("given")) if others else context
 
     def _claim(self, number: int, claim: Claim, place: Place, context: Context) -> Claim:
         """Return a claim; raise UserError if one of its entries is wrong."""
@@ -104,45 +120,46 @@ class ClaimReader:
         except UnknownName as error:
             why = _lacking(unknown(error.given, names) or ["oo"], context.meant)
             return replace(claim, unchecked=why) if claim.text else self._unread(number, claim, why)
+        if entry.given is not None:
+            context = self._redefined(entry, place, {})
+            names = context.names(place)
+            left, relation, right = equation(claim.text, names, may_be_rough(entry, claim.text))
         undefined = {Symbol(name) for name in context.symbols} - context.meant.in_variables.keys()
         left, right = (with_real_bound(side, undefined) for side in (left, right))
-        if entry.given is not None:
-            context = self._following(entry.given, context, place.inside("given"))
-            undefined = set()
-        self._read[entry.label] = left, right
+        self._read[entry.label] = relation, *sides_of(claim.text, names)
         through = _through(entry, left, names, place)
         sides = [side.xreplace({left: right}) for side in through] or [left, right]
         if lacking := [n for n in context.symbols if Symbol(n) in free(*sides) & undefined]:
             return replace(claim, unchecked=_lacking(lacking, context.meant))
         stated = _Equation(
-            self.declared, entry, place, context, claim.text, left, relation, right, through
+            self.declared,
+            entry,
+            place,
+            context,
+            partial(self._redefined, entry, place),
+            claim.text,
+            left,
+            relation,
+            right,
+            through,
+            tuple(self._made[label] for label in entry.given or ()),
         )
         return replace(claim, meant=stated.meant(), against=stated.against())
 
-    def _following(self, given: Iterable[str], context: Context, place: Place) -> Context:
-        """Return the context if other claims are true; symbols without meaning become variables."""
-        table, known = dict[Symbol, Expr](), context.meant.in_variables
-        for label in given:
-            remedy = "give the label of an earlier claim that can be read"
+    def _given(self, labels: Iterable[str], place: Place) -> dict[str, str]:
+        """Return the formulas of the symbols that earlier claims define."""
+        found = dict[str, str]()
+        for label in labels:
             why = f"{label!r} is not the label of an earlier claim"
+            remedy = "give the label of an earlier claim that can be read"
             place.demand(label in self._read, why, remedy)
-            left, right = self._read[label]
-            if not isinstance(left, Symbol):
-                left, right = right, left
-            is_definition = isinstance(left, Symbol) and not right.has(left)
+            relation, *both = self._read[label]
+            name, formula = both if usable(both[0]) else reversed(both)
+            is_definition = relation == Relation.EQUAL and usable(name)
             why = f"the claim {label!r} does not define a symbol"
             place.demand(is_definition, why, "give claims of the form symbol = ...")
-            table[left] = right
-        for symbol in map(Symbol, context.symbols):
-            if symbol not in known:
-                table.setdefault(symbol, Symbol(symbol.name, positive=True))
-        known = {s: expr for s, expr in known.items() if s not in table}
-        for _ in table:
-            table = {s: expr.xreplace(table) for s, expr in table.items()}
-        is_open = any(expr.free_symbols & table.keys() for expr in table.values())
-        place.demand(not is_open, "the claims are circular", "remove one of them")
-        found = {**known, **{s: expr.xreplace(known) for s, expr in table.items()}}
-        return replace(context, meant=Meant(table, found))
+            found[name] = formula
+        return found
 
 
 @dataclass(frozen=True)
@@ -153,11 +170,13 @@ class _Equation:
     entry: Entry
     place: Place
     context: Context
+    redefined: Callable[[Mapping[str, Any]], Context]
     text: str
     left: Expr
     relation: Relation
     right: Expr
     through: tuple[Expr, ...]
+    given: tuple[Claim, ...]
 
     def meant(self) -> AsMeant:
         """Return the comparison that the equation stands for."""
@@ -189,7 +208,9 @@ class _Equation:
             conditions=conditions,
             cases=self._cases(held),
             family=entry.family,
-            defined=self._is_defined(),
+            basis=self._basis,
+            called=self._called_sides,
+            given=self.given,
             rounded=_rounded(self.text, self._names()),
             swaps=self._swaps(named),
             unit_of=context.units_of(named | held),
@@ -214,6 +235,23 @@ class _Equation:
             why = f"{key}: {name!r} is not a variable"
             raise self.place.bad(why, "use a name of [variables]")
         return found
+
+    @cached_property
+    def _called_sides(self) -> tuple[Expr, ...]:
+        """The sides to compare in our variables, with the body's formulas as functions."""
+        written = self.context.meant.as_written
+        sides = [side.xreplace({self.left: self.right}) for side in self.through]
+        return tuple(side.xreplace(written) for side in sides or (self.left, self.right))
+
+    @property
+    def _basis(self) -> Basis:
+        """What the verdict rests on if it rests on everything that takes part."""
+        if self.given:
+            return Basis.GIVEN
+        if any(side.has(AppliedUndef) for side in self._called_sides):
+            return Basis.BODY
+        used = free(self.left, self.right, *self.through) & self.context.meant.as_written.keys()
+        return Basis.DEFINITIONS if used else Basis.MATHEMATICS
 
     # -------------------------------------------------------------- calls
 
@@ -240,8 +278,7 @@ class _Equation:
 
     def _changed(self, symbols: Mapping[str, Formula]) -> Meaning:
         """Return the meanings that change if some symbols of the claim are redefined."""
-        own, place = {**self.entry.symbols, **symbols}, self.place
-        other = self.declared.context(place, self.entry.body, own).meant.in_variables
+        other = self.redefined(symbols).meant.in_variables
         known, calls = self.context.meant.in_variables, set(self._calls.values())
         return {s: e for s, e in self._called(other).items() if s in calls or known.get(s) != e}
 
@@ -313,19 +350,6 @@ class _Equation:
         why, remedy = "only one of `allowed` and `beyond` is given", "write both, as allowed = "
         self.place.demand(bool(allowed and beyond), why, f'{remedy}{{ sigma = "..." }}')
         return self._changed(allowed or {}), self._changed(beyond or {})
-
-    def _is_defined(self) -> bool:
-        """Whether one side is a symbol and the file defines it by the other side."""
-        entry, meant = self.entry, self.context.meant
-        if entry.given is not None or entry.through or entry.allowed:
-            return False
-        for one, other in ((self.left, self.right), (self.right, self.left)):
-            if one in meant.in_variables:
-                words = meant.uses[one.name] | {one.name}
-                table = {s: expr for s, expr in meant.as_written.items() if s.name in words}
-                if one.xreplace(table) == other.xreplace(table):
-                    return True
-        return False
 
     def _demand_bound(self, left: Expr, right: Expr, meaning: Meaning) -> None:
         """Refuse variables of integration, except positions, that are also used outside."""

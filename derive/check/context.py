@@ -5,11 +5,11 @@ Meant     the meanings of these symbols
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from sympy import Derivative, Expr, Integral, Limit, Symbol
+from sympy import Derivative, Expr, Integral, Limit, Piecewise, Symbol
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
@@ -89,7 +89,10 @@ class Context:
         """Return the names that an equation may hold: symbols, by default all, and variables."""
         chosen = self.symbols if symbols is None else symbols
         arities = {name: len(known.arguments) for name, known in (self.sheet or {}).items()}
-        return Names(str(place), {**self.variables, **{n: Symbol(n) for n in chosen}}, arities)
+        meant = frozenset(name for name in chosen if self.symbols[name])
+        return Names(
+            str(place), {**self.variables, **{n: Symbol(n) for n in chosen}}, arities, meant
+        )
 
     # -------------------------------------------------------------- meanings
 
@@ -126,6 +129,21 @@ class Context:
         meant.as_written[symbol], meant.in_variables[symbol] = written, in_variables
         return True
 
+    def replaced(self, formulas: Mapping[str, str], place: Place) -> "Context":
+        """Return the context in which equations, but not other symbols, use other formulas."""
+        names = self.names(place)
+        table = {Symbol(name): formula(text, names) for name, text in formulas.items()}
+        for _ in table:
+            table = {symbol: expr.xreplace(table) for symbol, expr in table.items()}
+        is_open = any(expr.free_symbols & table.keys() for expr in table.values())
+        place.demand(not is_open, "the claims are circular", "remove one of them")
+        written = {symbol: expr.xreplace(self.meant.as_written) for symbol, expr in table.items()}
+        found = {symbol: self.substitute(expr) for symbol, expr in written.items()}
+        as_written = {**self.meant.as_written, **written}
+        in_variables = {**self.meant.in_variables, **found}
+        meant = replace(self.meant, as_written=as_written, in_variables=in_variables)
+        return replace(self, meant=meant)
+
     def substitute(self, expr: Any) -> Any:
         """Replace the calls of the body's formulas by the proven expressions."""
         while calls := expr.atoms(AppliedUndef):
@@ -136,6 +154,9 @@ class Context:
             table = dict(zip(known.arguments, call.args, strict=True))
             expr = expr.xreplace({call: placed(formula, table)})
         expr = proper(expr)
+        if any(each.has(Piecewise) for each in expr.atoms(Limit)):  # SymPy takes either branch
+            why = "it has a limit of a formula with cases, which cannot be determined"
+            raise self.place.bad(why, "write the formula on the side from which the limit is taken")
         return expr.doit() if expr.has(Derivative, Limit) else expr
 
     def in_variables(self, expr: Any) -> Any:

@@ -10,8 +10,7 @@ from itertools import islice
 from typing import Any
 
 import mpmath
-from sympy import Expr, Pow, Symbol, count_ops, exp, sign
-from sympy.functions.elementary.hyperbolic import HyperbolicFunction
+from sympy import Expr, Symbol, Tuple, count_ops, sign
 
 from derive.check.claim import Claim, Point, Verdict
 from derive.check.diagnosis import quotient, simple
@@ -30,8 +29,6 @@ _DRAWN = 16
 """Number of points from which those points are chosen."""
 _FIRSTS = 12
 """The largest number of first changes that are combined with a second one."""
-_STEEP = 16
-"""Powers with larger exponents may be too small to appear in any digit."""
 
 
 @dataclass(frozen=True)
@@ -79,34 +76,13 @@ def repaired(claim: Claim, look: LookAtClock = no_clock) -> tuple[Repair | None,
         for each in sorted(fitting, key=lambda one: one.plainness):
             of_its_relation = claim.changed(relation=each.relation)
             judged = judge(of_its_relation, each.left, each.right, claim.meant.meaning, look)
-            if is_carried(of_its_relation, each.left, each.right, judged):
+            # the sign of a square is 1, except at one point
+            is_doubtful = Tuple(each.left, each.right).has(sign) and not has_integral(claim)
+            if judged.verdict == Verdict.HOLDS or (judged.good and not is_doubtful):
                 others = {(one.left, one.right): one.change for one in fitting}
                 del others[each.left, each.right]  # changes that lead to the same equation
                 return replace(each, judged=judged, also=tuple(others.values())), tried
     return None, tried
-
-
-def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
-    """Whether the evidence is sufficient for a corrected equation.
-
-    Agreement in digits may mislead: 1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4.
-    Equations with such functions must be proven, and so must those with sign functions, which
-    vanish at points that may never be drawn.
-    """
-    if claim.meant.relation.is_ordered or has_integral(claim) or claim.meant.toward:
-        return judged.good
-    sides = Sides(claim, *claim.meant.sides(left, right), claim.meant.meaning)
-    if any(map(_may_fade, sides.in_variables)) or left.has(sign) or right.has(sign):
-        return judged.verdict == Verdict.HOLDS
-    return judged.good
-
-
-def _may_fade(expr: Expr) -> bool:
-    """Whether a part may be nonzero but too small to appear in any digit."""
-    powers = (power.exp for power in expr.atoms(Pow))
-    return expr.has(exp, HyperbolicFunction) or any(
-        not each.is_number or abs(each) > _STEEP for each in powers
-    )
 
 
 # ------------------------------------------------------------------ candidates
@@ -195,6 +171,8 @@ class _Screen:
 
     def __init__(self, claim: Claim, look: LookAtClock) -> None:
         self.claim, self.look = claim, look
+        toward = claim.meant.toward
+        self.approach = None if toward is None else Approach(claim, toward)
         self.known: dict[tuple[object, ...], Mapping[Symbol, Any]] = {}
         drawn = list(points(claim, _DRAWN, "screen"))
         if not claim.meant.cases and claim.meant.toward is None:  # where both sides are real
@@ -212,9 +190,9 @@ class _Screen:
         """Whether a candidate agrees at the points, or near the limit of a claim that has one."""
         sides = self._sides(candidate.left, candidate.right)
         try:
-            if self.claim.meant.toward is not None:
-                approach = Approach(self.claim, sides.in_variables, self.claim.meant.toward)
-                return approach.judged(self.look)[0] == Verdict.NUMERICAL
+            if self.approach is not None:
+                found, _ = self.approach.judged(sides.in_variables, self.look)
+                return found == Verdict.NUMERICAL
             return all(
                 near(*sides.at_points, sides.numbers(point)) and sides.pair(point).agree
                 for point in self.points

@@ -105,25 +105,31 @@ class Declarations:
             raise place.bad(error.message, "write a unit such as N/m") from error
 
     def context(
-        self, place: Place, given: object = None, own: Mapping[str, Formula] = MappingProxyType({})
+        self,
+        place: Place,
+        given: object = None,
+        own: Mapping[str, Formula] = MappingProxyType({}),
+        free: bool = False,
     ) -> Context:
-        """Return the context of a claim with its own body, if it gives one, and own symbols."""
+        """Return the context of a claim with its own body, if it gives one, and own symbols.
+
+        free: whether symbols without a meaning are positive variables
+        """
         body = self.body if given is None else body_of(given, place)
         for name in own:
             demand_name(name, place)
         texts = {name: text_of(formula) for name, formula in own.items()}
-        key = (id(body), *sorted(texts.items()))
+        key = (id(body), free, *sorted(texts.items()))
         if key not in self._contexts:
+            variables, units = self._variables(body), self._units(body)
+            symbols = {**self.symbols, **texts}
+            for name in [n for n, formula in symbols.items() if free and not formula]:
+                del symbols[name]
+                variables[name] = Symbol(name, positive=True)
+                if Symbol(name) in units:
+                    units[variables[name]] = units[Symbol(name)]
             known = self.context(place, given).meant.without(own) if own else Meant()
-            made = Context(
-                body,
-                self._variables(body),
-                self._units(body),
-                {**self.symbols, **texts},
-                self.place,
-                self.limit,
-                known,
-            )
+            made = Context(body, variables, units, symbols, self.place, self.limit, known)
             for name in made.symbols:
                 made.define(name)
             self._contexts[key] = made

@@ -7,26 +7,28 @@ some variables are then moved to a place where the claim may fail:
     further   over many decades; near the ends of ranges; past a numerical limit of integration;
               to both sides of a zero of a modulus, a logarithm, a root or the like, or of the
               difference of an inequality; and to where such a thing, or a spike, is stationary
-    closest   to where the difference of an inequality is stationary
+    closest   to where the difference of an inequality is stationary, and to the ends of ranges
 """
 
 import hashlib
 import random
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
-from itertools import chain, islice
+from itertools import chain, islice, product
 from math import nan
 from typing import Any, NamedTuple
 
 import mpmath
 import numpy as np
 from mpmath import mpf
-from sympy import Expr, Integral, Symbol, lambdify
+from sympy import Expr, Integral, Symbol, exp, lambdify
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.logic.boolalg import Boolean
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from derive.check.claim import SCALE, Claim, Point, Range
 from derive.proof.kinks import peaked, switches
+from derive.sheet.notation import text_of
 
 POINTS = 24
 """Number of points of moderate size at which both sides are compared."""
@@ -42,8 +44,17 @@ _MOST_PAST, _WIDE_PAST = 15, 6
 """The largest number of such points, and of further points over many decades in such a case."""
 _LOOKED_AT = 10
 """The largest number of expressions of a claim whose zeros are sought."""
+_DECADES = 6
+"""The decades over which a variable without a range is spread."""
 _GRID = 96
 """Number of grid points for the sign of an expression; an even number leaves out the middle."""
+
+_EXACT = 300
+"""Digits of the ends of ranges, which are more than any working digits."""
+_FADED = 69
+"""The exponential of minus this number is below the digits that two sides must share."""
+_FAR = np.array([1e-30, 10.0**-_DECADES, 10.0**_DECADES, 1e30])
+"""Values below, at either end of, and above those of a variable without a range."""
 
 
 class _Numbers(NamedTuple):
@@ -56,7 +67,7 @@ class _Numbers(NamedTuple):
     decades: int
 
 
-_MANY, _FEW = _Numbers(8, 6, 16, 12, 6), _Numbers(3, 2, 2, 4, 2)
+_MANY, _FEW = _Numbers(8, 6, 16, 12, _DECADES), _Numbers(3, 2, 2, 4, 2)
 """For claims without integrals, and for claims with integrals."""
 
 
@@ -156,12 +167,43 @@ def further(claim: Claim, exprs: Sequence[Expr]) -> Iterator[Point]:
     yield from (point for point in chain.from_iterable(groups) if is_allowed(claim, point))
 
 
+def unseen(claim: Claim, exprs: Sequence[Expr], examined: Sequence[Point]) -> str:
+    """Describe what the examined points do not show; empty if nothing was found.
+
+    A switch may have another sign beyond them all, and a function that fades may differ from its
+    limit in no digit.
+    """
+    drawn = _Drawn(claim, "unseen")
+    if claim.meant.cases or not drawn.symbols:
+        return ""
+    point = drawn.point()
+    found = {each.of for side in exprs for each in switches(side)}
+    fading = {each.args[0] for side in exprs for each in side.atoms(exp, HyperbolicFunction)}
+    for expr, variable in drawn.along(found):
+        below, low, high, above = np.sign(along(expr, variable, point, _FAR))
+        if variable not in drawn.ranges and -1 in (below * low, high * above):
+            values = _values(expr, variable, examined)
+            if not min(values) < 0 < max(values):
+                where = f"beyond the values of {variable} that are examined"
+                return f"{text_of(expr)} changes its sign {where}"
+    for expr, variable in drawn.along(fading):
+        if min(map(abs, _values(expr, variable, examined))) > _FADED:
+            return f"an exponential of {text_of(expr)} has its limit at all examined points"
+    return ""
+
+
+def _values(expr: Expr, variable: Symbol, where: Sequence[Point]) -> list[float]:
+    return [float(along(expr, variable, p, np.array([float(p[variable])]))[0]) for p in where]
+
+
 def closest(claim: Claim, exprs: Sequence[Expr]) -> Iterator[tuple[Point, list[Point]]]:
-    """Yield points where the sides of an inequality are closest, with two points beside each."""
+    """Yield points where the sides of an inequality may be closest, each with points beside it."""
     if not (claim.meant.cases or has_integral(claim)):
-        found = _Drawn(claim, "closest").stationary([exprs[0] - exprs[1]], every=True)
+        drawn = _Drawn(claim, "closest")
+        found = drawn.stationary([exprs[0] - exprs[1]], every=True)
         allowed = ((point, beside) for point, beside in found if is_allowed(claim, point))
         yield from islice(allowed, _MANY.special)
+        yield from ((each, [drawn.point()]) for each in drawn.at_ends() if is_allowed(claim, each))
 
 
 class _Drawn:
@@ -207,6 +249,13 @@ class _Drawn:
                 }
             )
 
+    def at_ends(self) -> Iterator[Point]:
+        """Yield points with all variables that have a range at its ends, as they are written."""
+        with mpmath.workdps(_EXACT):
+            ends = [[mpf(str(end)) for end in (s.low, s.high)] for s in self.ranges.values()]
+        for corner in islice(product(*ends) if ends else (), _MANY.corners):
+            yield self.point() | dict(zip(self.ranges, corner, strict=True))
+
     def past_limits(self, exprs: Sequence[Expr]) -> Iterator[Point]:
         """Yield points with variables of an integrand close to a numerical limit."""
         near = set[tuple[Symbol, float]]()
@@ -220,9 +269,9 @@ class _Drawn:
 
     def either_side(self, exprs: Iterable[Expr]) -> Iterator[Point]:
         """Yield pairs of points with a zero of an expression between them."""
-        for expr, variable in self._along(exprs):
+        for expr, variable in self.along(exprs):
             point = self.point()
-            for zero, ends in self._zeros(expr, variable, point)[:1]:
+            for zero, ends in zeros(expr, variable, point, self._grid(variable))[:1]:
                 for end in ends:
                     share = 10 ** self.rng.uniform(-4, 0)
                     yield point | {variable: mpf(zero + (end - zero) * share)}
@@ -238,15 +287,15 @@ class _Drawn:
         every: whether all values of a variable are wanted, and not only one
         """
         points_ = dict[Expr, Point]()
-        for expr, variable in self._along(exprs):
+        for expr, variable in self.along(exprs):
             point = points_.setdefault(expr, self.point())
-            zeros = self._zeros(expr.diff(variable), variable, point)
-            for zero, ends in zeros if every else zeros[:1]:
+            found = zeros(expr.diff(variable), variable, point, self._grid(variable))
+            for zero, ends in found if every else found[:1]:
                 beside = [point | {variable: mpf(end)} for end in ends]
                 yield point | {variable: mpf(zero)}, beside
-            points_[expr] = point | {variable: mpf(zero) for zero, _ in zeros[:1]}  # noqa: B035
+            points_[expr] = point | {variable: mpf(zero) for zero, _ in found[:1]}  # noqa: B035
 
-    def _along(self, exprs: Iterable[Expr]) -> Iterator[tuple[Expr, Symbol]]:
+    def along(self, exprs: Iterable[Expr]) -> Iterator[tuple[Expr, Symbol]]:
         """Yield the expressions in the variables, the shortest first, with each variable."""
         known = set(self.symbols)
         chosen = {each for each in exprs if each.free_symbols <= known and not each.has(Integral)}
@@ -256,27 +305,8 @@ class _Drawn:
     def _grid(self, symbol: Symbol) -> Any:
         """Return values of a variable over its whole range."""
         if symbol not in self.ranges:
-            return np.logspace(-_MANY.decades, _MANY.decades, _GRID)
+            return np.logspace(-_DECADES, _DECADES, _GRID)
         return np.array([_at(self.ranges[symbol], n / (_GRID - 1)) for n in range(_GRID)])
-
-    def _zeros(
-        self, expr: Expr, variable: Symbol, point: Point
-    ) -> list[tuple[float, tuple[float, float]]]:
-        """Return changes of sign along a variable, each between two grid points.
-
-        The one in the middle comes first.
-        """
-        grid = self._grid(variable)
-        changes = np.flatnonzero(_products(expr, variable, point, grid) < 0)
-        found = []
-        for n in np.roll(changes, -(len(changes) // 2)):
-            low, high = grid[n], grid[n + 1]
-            for _ in range(20):  # narrow the interval by repeated division
-                parts = np.linspace(low, high, 9)
-                k = int(np.argmax(_products(expr, variable, point, parts) <= 0))
-                low, high = parts[k], parts[k + 1]
-            found.append((float(low + high) / 2, (float(grid[n]), float(grid[n + 1]))))
-        return found
 
 
 def _at(span: Range, share: float) -> float:
@@ -302,6 +332,25 @@ def _products(expr: Expr, variable: Symbol, point: Point, values: Any) -> Any:
     found = along(expr, variable, point, values)
     with np.errstate(all="ignore"):
         return found[:-1] * found[1:]
+
+
+def zeros(
+    expr: Expr, variable: Symbol, point: Point, grid: Any
+) -> list[tuple[float, tuple[float, float]]]:
+    """Return changes of sign along a variable, each between two neighbouring values of a grid.
+
+    The one in the middle comes first.
+    """
+    changes = np.flatnonzero(_products(expr, variable, point, grid) < 0)
+    found = []
+    for n in np.roll(changes, -(len(changes) // 2)):
+        low, high = grid[n], grid[n + 1]
+        for _ in range(20):  # narrow the interval by repeated division
+            parts = np.linspace(low, high, 9)
+            k = int(np.argmax(_products(expr, variable, point, parts) <= 0))
+            low, high = parts[k], parts[k + 1]
+        found.append((float(low + high) / 2, (float(grid[n]), float(grid[n + 1]))))
+    return found
 
 
 # ------------------------------------------------------------------ in words

@@ -11,9 +11,10 @@ from mpmath import mpf
 from mpmath.libmp import to_rational
 from sympy import Expr, Integral, Rational, Symbol
 
-from derive.check.claim import SCALE, Claim, Meaning, Point, Rounded, Verdict
+from derive.check.claim import SCALE, Claim, Meaning, Point, Range, Rounded, Verdict
 from derive.check.diagnosis import quotient
-from derive.check.draw import LEAST, closest, further, points, spread, variables
+from derive.check.draw import LEAST, closest, further, points, spread, unseen, variables
+from derive.check.intervals import is_positive
 from derive.check.numbers import Numbers, Pair, both, numbers
 from derive.check.tending import Approach
 from derive.check.zero import constant, vanishes, vanishes_at
@@ -151,8 +152,8 @@ class Judging:
         """Judge whether the ratio tends to 1, or whether the difference has the printed order."""
         if self.claim.meant.toward is None:
             return None
-        approach = Approach(self.claim, self.sides.in_variables, self.claim.meant.toward)
-        return self._judged(*approach.judged(self.look))
+        approach = Approach(self.claim, self.claim.meant.toward)
+        return self._judged(*approach.judged(self.sides.in_variables, self.look))
 
     def whole(self) -> Judged:
         """Return the verdict by the first of these questions that decides; raises Undecided."""
@@ -161,6 +162,7 @@ class Judging:
             or self._at_too_few_points()
             or self._false_at(further(self.claim, self.sides.in_variables), Undecided)
             or self._wrong_where_closest()
+            or self._not_shown_at_points()
             or self._inequality_is_true()
             or self._wrong_off_the_bound()
             or self._by_exact_steps()
@@ -251,10 +253,34 @@ class Judging:
                 return judged
         return None
 
+    def _not_shown_at_points(self) -> Judged | None:
+        """Judge nothing if the points do not show all of the sides, unless a proof exists."""
+        why = unseen(self.claim, self.sides.in_variables, [pair.point for pair in self.found])
+        if not why or self._is_proven:
+            return None
+        return self._judged(Verdict.UNCHECKED, f"{why}: give its variables other ranges")
+
+    @property
+    def _is_proven(self) -> bool:
+        try:
+            return bool(self._are_equal)
+        except LimitReached:
+            return False
+
     def _inequality_is_true(self) -> Judged | None:
-        if self.claim.meant.is_inequality and not all(pair.agree for pair in self.found):
-            return self._judged(Verdict.NUMERICAL, f"true {self._where()}")
-        return None
+        if not self.claim.meant.is_inequality or all(pair.agree for pair in self.found):
+            return None
+        ranges = self._ranges
+        below = self.claim.meant.relation in (Relation.BELOW, Relation.AT_MOST)
+        difference = -self._difference if below else self._difference
+        try:
+            if is_positive(difference, ranges, self.look):
+                spans = (f"{s} from {span.low:g} to {span.high:g}" for s, span in ranges.items())
+                why = f"true for all {' and '.join(spans)} at which both sides are real"
+                return self._judged(Verdict.HOLDS, why)
+        except LimitReached:
+            pass
+        return self._judged(Verdict.NUMERICAL, f"true {self._where()}")
 
     def _wrong_off_the_bound(self) -> Judged | None:
         """Judge the printed relation on both sides of the state in which a bound is reached."""
@@ -280,8 +306,12 @@ class Judging:
     @cached_property
     def _are_equal(self) -> str:
         """How both sides were shown to be equal everywhere; empty if they were not."""
-        ranges = {s: self.claim.meant.ranges.get(s, SCALE) for s in variables(self.claim)}
-        return vanishes(self._difference, ranges)
+        return vanishes(self._difference, self._ranges)
+
+    @property
+    def _ranges(self) -> dict[Symbol, Range]:
+        """The ranges of all variables."""
+        return {s: self.claim.meant.ranges.get(s, SCALE) for s in variables(self.claim)}
 
     def _by_exact_steps(self) -> Judged:
         worst = min(min(pair.digits, pair.known) for pair in self.found)

@@ -22,6 +22,7 @@ _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
 _SENSES = {
     Verdict.HOLDS: "one sign",
     Verdict.NUMERICAL: "one sign",
+    Verdict.DEFINITION: "one sign",
     Verdict.CONVENTION: "the opposite sign",
     Verdict.FAILS: "neither",
 }
@@ -98,6 +99,7 @@ def explanation(finding: Finding) -> list[Told]:
         Told("steps", entry.steps),
         Told("symbols", symbols),
         Told("verdict", [str(finding.verdict), *lines_of(finding.judged.why), finding.partly]),
+        Told("rests on", [finding.rests_on]),
         Told("units", [claim.units]),
         Told("convention", _convention(finding)),
         Told("search", [*search, in_vain]),
@@ -120,7 +122,8 @@ def evidence(finding: Finding) -> str:
         finding.partly,
         *_search(finding),
     ]
-    return "; ".join(filter(None, parts))
+    rests_on = f"rests on {finding.rests_on}" if finding.rests_on else ""
+    return "; ".join(filter(None, [*parts, rests_on]))
 
 
 def _convention(finding: Finding) -> list[str]:
@@ -219,6 +222,8 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
             "says": finding.claim.entry.says,
             "verdict": str(finding.verdict),
             "expected": finding.as_expected,
+            "rests_on": finding.basis,
+            "given": {each.claim.entry.label: str(each.verdict) for each in finding.given},
             "printed": printed(finding.claim),
             "corrected": corrected(finding),
             "diagnosis": finding.diagnosis or None,

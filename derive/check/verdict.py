@@ -6,12 +6,13 @@ make the claim true, and which change of the printed equation makes it true?  A 
 is judged like the printed one, at the same points and by the same steps.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from derive.check.claim import Claim, Verdict
+from derive.check.basis import basis, is_empty
+from derive.check.claim import Basis, Claim, Verdict
 from derive.check.correction import Repair, repaired
 from derive.check.diagnosis import diagnosis, where_true
 from derive.check.judge import Judged, Judging, Sides, judge, judge_as_printed, no_clock
@@ -33,6 +34,8 @@ class Finding:
     stopped     the reason why the search for a correction was not completed, if any
     diagnosis   how the two sides differ, if no correction was found
     partly      where the claim is true, if it is true at some points and false at others
+    basis       what the verdict rests on; None if the claim is unchecked
+    given       the findings of the claims that are taken as true
     """
 
     claim: Claim
@@ -44,6 +47,23 @@ class Finding:
     stopped: str = ""
     diagnosis: str = ""
     partly: str = ""
+    basis: Basis | None = None
+    given: tuple["Finding", ...] = ()
+
+    @property
+    def unsound(self) -> Verdict | None:
+        """The verdict on a claim taken as true that is not shown to be true, if there is one."""
+        found = [each.unsound if each.judged.good else each.verdict for each in self.given]
+        return min(filter(None, found), key=lambda each: each != Verdict.FAILS, default=None)
+
+    @property
+    def rests_on(self) -> str:
+        """What the verdict rests on, in words; empty if the claim is unchecked."""
+        told = []
+        for each in self.given:
+            its = f", rests on {each.rests_on}" if each.given else ""
+            told.append(f"{each.claim.name} ({each.verdict}{its})")
+        return " ".join(filter(None, [self.basis, ", ".join(told)]))
 
     @property
     def verdict(self) -> Verdict:
@@ -57,13 +77,31 @@ class Finding:
         return self.verdict == wanted if wanted else self.judged.good
 
 
-def check(claim: Claim) -> Finding:
+def check(claim: Claim, known: Iterable[Finding] = ()) -> Finding:
+    """Return the verdict on one claim, and what it rests on.
+
+    known: findings for earlier claims, of which some may be taken as true here
+    """
+    finding = _checked(claim)
+    if finding.verdict == Verdict.UNCHECKED:
+        return finding
+    if finding.judged.good and _attempted(claim, lambda look: is_empty(claim, look))[0]:
+        why = "the equation in `through` is true whatever its symbol is"
+        return Finding(claim, Judged(Verdict.UNCHECKED, why))
+    found, _ = _attempted(claim, lambda look: basis(claim, finding.judged, look))
+    rests_on, judged = found or claim.meant.basis, finding.judged
+    if finding.verdict == Verdict.HOLDS and rests_on == Basis.DEFINITIONS:
+        why = f"true by the definitions; {judged.why}"
+        judged = replace(judged, verdict=Verdict.DEFINITION, why=why)
+    by_label = {each.claim.entry.label: each for each in known}
+    given = tuple(by_label.get(each.entry.label) or check(each) for each in claim.meant.given)
+    return replace(finding, judged=judged, basis=rests_on, given=given)
+
+
+def _checked(claim: Claim) -> Finding:
     """Return the verdict on one claim; if the work is interrupted, it is `unchecked`."""
     if claim.unchecked:
         return Finding(claim, Judged(Verdict.UNCHECKED, claim.unchecked))
-    if claim.meant.defined:
-        why = "the file defines its symbols by this very equation, so nothing is compared"
-        return Finding(claim, Judged(Verdict.DEFINITION, why))
     found, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
     judged = found or Judged(Verdict.UNCHECKED, stopped)
     if judged.verdict == Verdict.FAILS:

@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator, Mapping
 
 import sympy as sp
 from sympy import Expr, Rational, Symbol
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
+from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from derive.check.claim import SCALE, Range
 from derive.proof.kinks import switches
@@ -22,6 +24,9 @@ _MOST_TERMS = 50_000
 """The largest number of terms after expansion, by a bound computed before the expansion."""
 _MOST_SIGNS = 500
 """The same for an expression whose sign is examined term by term."""
+_LARGEST = 100
+"""The largest integer in an angle."""
+_OF_ANGLES = (TrigonometricFunction, HyperbolicFunction)
 _SHORT = 90
 """The largest number of operations for which `simplify` and `trigsimp` are tried."""
 
@@ -58,7 +63,10 @@ def constant(expr: Expr) -> Expr | None:
 
 
 def _is_too_long(expr: Expr) -> bool:
-    return expr.has(sp.Integral) or sp.count_ops(expr) > _LONGEST or terms(expr) > _MOST_TERMS
+    if expr.has(sp.Integral) or sp.count_ops(expr) > _LONGEST or terms(expr) > _MOST_TERMS:
+        return True
+    angles = [call.args[0] for call in expr.atoms(*_OF_ANGLES)]  # sin(n*x) has n terms
+    return any(abs(number) > _LARGEST for angle in angles for number in angle.atoms(sp.Integer))
 
 
 # ------------------------------------------------------------------ exact steps

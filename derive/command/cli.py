@@ -293,6 +293,7 @@ def check(
         accept_readings(file, explain)
         return
     from derive.check import documents
+    from derive.check.verdict import Finding
     from derive.check.verdict import check as judged
     from derive.command import view
     from derive.command.files import demand_page, put_page
@@ -302,10 +303,10 @@ def check(
 
     paper = paper_of(file, explain)
     with progress(len(paper.claims), ("checking",)) as step:
-        findings = []
+        findings = list[Finding]()
         for claim in paper.claims:
             step(claim.name, "checking")
-            findings.append(judged(claim))
+            findings.append(judged(claim, findings))
             step(claim.name, "")
     if form in documents.FORMS:
         click.echo(documents.FORMS[form](paper, findings))

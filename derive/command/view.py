@@ -132,11 +132,14 @@ def checked(findings: "Sequence[Finding]") -> Group:
     """The verdict on every claim, and a remark on each claim that is not true as printed."""
     from derive.check import report
 
-    table = Table("claim", Column("verdict", no_wrap=True), "description")
+    table = Table("claim", Column("verdict", no_wrap=True), "rests on", "description")
     for finding in findings:
         verdict = _verdict_of(finding)
         claim = finding.claim
-        table.add_row(Text(claim.name, style="cyan"), verdict, claim.entry.says)
+        rests_on = Text(finding.basis.word if finding.basis else "-")
+        if finding.unsound:
+            rests_on.append(f" ({finding.unsound})", style=_VERDICTS[finding.unsound])
+        table.add_row(Text(claim.name, style="cyan"), verdict, rests_on, claim.entry.says)
     parts: list[RenderableType] = [table]
     for finding in findings:
         if remark := report.remark(finding):

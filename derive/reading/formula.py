@@ -59,11 +59,13 @@ class Names:
     where    the file and the claim, for error messages
     symbols  the symbol or expression for every name
     calls    the names of the formulas on a sheet, each with its number of arguments
+    meant    the names that have a meaning, which no integral, sum, limit or derivative runs over
     """
 
     where: str
     symbols: Mapping[str, Expr]
     calls: Mapping[str, int]
+    meant: frozenset[str] = frozenset()
 
     @cached_property
     def words(self) -> Words:
@@ -84,6 +86,23 @@ def equation(text: str, names: Names, rough: bool = False) -> tuple[Expr, Relati
 
     rough: whether the relation may be ~.
     """
+    start, end, sign = _relation(text, names)
+    if sign == Relation.LIKE and not rough:
+        why = "~ cannot be checked without a limit"
+        remedy = "add as = 'x -> 0' to the claim, or equate the leading terms with ="
+        raise BadFormula(names.where, text, start, why, remedy)
+    left = formula(text[:start], names)
+    return left, sign, formula(" " * end + text[end:], names)
+
+
+def sides(text: str, names: Names) -> tuple[str, str]:
+    """Return the text of the left and of the right side; raises BadFormula."""
+    start, end, _ = _relation(text, names)
+    return text[:start].strip(), text[end:].strip()
+
+
+def _relation(text: str, names: Names) -> tuple[int, int, Relation]:
+    """Return the place of the only relation, and the relation; raises BadFormula."""
     relations, depth = list[re.Match[str]](), 0
     for each in _RELATION.finditer(text):
         depth += (each[0] == "(") - (each[0] == ")")
@@ -93,14 +112,7 @@ def equation(text: str, names: Names, rough: bool = False) -> tuple[Expr, Relati
         column = relations[1].start() if relations else len(text)
         why = "there are two relations here" if relations else "there is no relation here"
         raise BadFormula(names.where, text, column, why, "write exactly one, as in left = right")
-    start, end = relations[0].span()
-    sign = relations[0][0].replace("==", "=")
-    if sign == Relation.LIKE and not rough:
-        why = "~ cannot be checked without a limit"
-        remedy = "add as = 'x -> 0' to the claim, or equate the leading terms with ="
-        raise BadFormula(names.where, text, start, why, remedy)
-    left = formula(text[:start], names)
-    return left, Relation(sign), formula(" " * end + text[end:], names)
+    return *relations[0].span(), Relation(relations[0][0].replace("==", "="))
 
 
 def unknown(text: str, names: Names) -> list[str]:
@@ -186,6 +198,9 @@ class _Reader(Meaning):
         why, remedy = "the second argument is not a variable", f"write {name}(f, s, ...)"
         if not isinstance(along, ast.Name) or along.id == PI:
             raise self.refusal(node, why, remedy)
+        if along.id in self.names.meant:
+            why = f"{along.id} has a meaning, so that {name} cannot run over it"
+            raise self.refusal(along, why, "use a variable, or a name that is not defined")
         limits, outside = [self._end(end, name) for end in ends], self.symbols
         if name in _BINDING and (along.id not in outside or name == "sum"):
             self.symbols = {**outside, along.id: Symbol(along.id, real=True)}
@@ -199,6 +214,10 @@ class _Reader(Meaning):
             case "pv":
                 return PrincipalValue(inside, variable, *limits)
             case "sum":
+                hidden = {each.name for each in inside.free_symbols} & self.names.meant
+                if hidden and along.id in outside and outside[along.id].is_real:
+                    why = f"{min(hidden)} has a meaning that may depend on the variable {along.id}"
+                    raise self.refusal(along, why, "sum over a name that the file does not declare")
                 return self._sum(node, inside, variable, *limits)
             case "limit":
                 # a variable that is known only inside a limit at zero is a small positive one

@@ -1,10 +1,10 @@
 """Limits on the size of a formula, checked before SymPy expands it."""
 
 from functools import reduce
-from math import ceil, comb, inf
+from math import ceil, comb
 from operator import mul
 
-from sympy import Add, Expr, I, Integer, Mul, Piecewise, Pow, Rational, S, nan, oo, zoo
+from sympy import Add, Expr, I, Mul, Piecewise, Pow, Rational, nan, oo, zoo
 
 LARGEST = 10**100
 """Upper bound of the magnitude of a constant, and of its reciprocal."""
@@ -66,30 +66,3 @@ def _branches(expr: Expr) -> tuple[Expr, ...]:
     if isinstance(expr, Piecewise):
         return tuple(value for value, _ in expr.args)
     return expr.args
-
-
-def reach(expr: Expr) -> float:
-    """An upper bound of the numbers in `expr` when expanded.
-
-    It is the value with 1 for every name and with the magnitudes of all numbers.
-
-    >>> from sympy.abc import x
-    >>> reach(2 * (x - 100))
-    202.0
-    """
-    try:
-        return _reach(expr)
-    except OverflowError:
-        return inf
-
-
-def _reach(expr: Expr) -> float:
-    if expr.is_number:
-        return float(abs(expr.evalf(15)))
-    if isinstance(expr, Add):
-        return sum(_reach(arg) for arg in expr.args)
-    if isinstance(expr, Mul):
-        return reduce(mul, (_reach(arg) for arg in expr.args))
-    if isinstance(expr, Pow) and isinstance(expr.exp, Integer) and expr.exp > S.Zero:
-        return _reach(expr.base) ** int(expr.exp)
-    return max([1.0, *(_reach(branch) for branch in _branches(expr))])

@@ -11,7 +11,7 @@ from sympy import Expr, Piecewise, Rational, pi, true
 from sympy.logic.boolalg import Boolean
 
 from derive.command.errors import BadText
-from derive.reading.limits import STEEPEST, fault, reach
+from derive.reading.limits import STEEPEST, fault
 from derive.reading.tree import Tree
 from derive.reading.words import PI, refusal
 
@@ -34,6 +34,11 @@ MIRRORED: dict[type[ast.cmpop], type[ast.cmpop]] = {
     **{ast.Gt: ast.Lt, ast.GtE: ast.LtE},
 }
 """The same comparisons with their sides exchanged."""
+
+
+def _is_steep(exponent: Expr) -> bool:
+    """Whether an exponent holds a number that is too large."""
+    return any(abs(number) > STEEPEST for number in exponent.atoms(Rational))
 
 
 class Meaning:
@@ -83,7 +88,7 @@ class Meaning:
         result = self.value(node)
         for each in reversed(chain):
             operand, column = self.value(each.right), self.tree.after(each.left)
-            if isinstance(each.op, ast.Pow) and reach(operand) > STEEPEST:
+            if isinstance(each.op, ast.Pow) and _is_steep(operand):
                 why = "the exponent is too large"
                 raise self.refusal(column, why, f"use exponents up to {STEEPEST}")
             result = self.step(column, _OPERATORS[type(each.op)], result, operand)

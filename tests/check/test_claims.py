@@ -66,7 +66,7 @@ def told(folder: Path, printed: str, more: str = "", before: str = "") -> dict[s
         ("abs(x) = x", "require = 'P > 0 and x > 0'", "numerical"),
         ("p = p_0*sqrt(1 - x**2/a**2)", "", "holds"),  # at |x| < a, where the pressure is
         ("stick_m(P, 0, b, 0) = sqrt(4*R*(P - b/(2*f))/(pi*E_star))", "", "holds"),
-        ("load(a, c) = P", "symbols = { c = 'a' }", "holds"),
+        ("load(a, c) = P", "symbols = { c = 'a' }", "by definition"),
         ("P = load(a, a)", "", "by definition"),
         ("load(a, w) = E_star*phi*sqrt(a*w)", "body = 'wedge'", "holds"),
         ("load(a, a) = P", "body = { g = 'x**2/R', units = { R = 'm' } }", "by definition"),

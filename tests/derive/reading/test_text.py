@@ -27,7 +27,7 @@ from sympy import (
 
 from derive.command.errors import BadText
 from derive.command.python_of import code_of
-from derive.reading.limits import LARGEST, MOST_TERMS, STEEPEST, reach, terms
+from derive.reading.limits import LARGEST, MOST_TERMS, STEEPEST, terms
 from derive.reading.profile import OF_PROFILES, parameters, read, tree_of
 from derive.reading.tokens import LONGEST
 from derive.reading.words import ALLOWED, FUNCTIONS
@@ -313,17 +313,11 @@ def test_the_bounds_of_what_is_multiplied_out_hold(factors: list[list[Pair]]) ->
         expr = (expr + 2) * sum(computed(code) for _, code in factor) ** len(factor)
     multiplied = sympy.expand(expr)
     assert len(sympy.Add.make_args(multiplied)) <= terms(expr)
-    size = sum(
-        abs(term.subs(dict.fromkeys((x, R, b, k), 1))) for term in sympy.Add.make_args(multiplied)
-    )
-    assert float(size) <= reach(expr) * (1 + 1e-9)
 
 
 def test_the_limits_are_where_they_are_said_to_be() -> None:
     assert read(f"x**{STEEPEST}") == x**STEEPEST
     assert read("1e100*x") == LARGEST * x
     assert terms(read("(x + b)**100")) == 101 <= MOST_TERMS
-    assert reach(read("(b + 100)**2*100")) == 101.0**2 * 100
-    assert reach((b + 2) ** 10000) == float("inf")
     assert read("(" * DEEPEST + "x" + ")" * DEEPEST) == x
     assert read("x" + " " * (LONGEST - 1)) == x

@@ -1,0 +1,105 @@
+"""Find out what a verdict rests on: the body, the user's definitions, other claims or none of them.
+
+A claim rests on the body only if the body's formulas matter.  They do not if the claim stays true
+when arbitrary functions take their places: then it is true by the definitions of the file alone.
+"""
+
+import hashlib
+import random
+from collections.abc import Iterator
+from functools import partial
+from itertools import islice
+
+from sympy import Derivative, Expr, Limit, Rational
+from sympy.core.function import AppliedUndef
+
+from derive.check.claim import Basis, Claim
+from derive.check.draw import has_integral, points
+from derive.check.judge import Judged, Judging, Sides
+from derive.check.numbers import near
+from derive.command.errors import UserError
+from derive.command.limit import LookAtClock
+from derive.proof.values import Undecided
+from derive.reading.improper import proper
+
+_SIGNS = (1, -1)
+"""The signs of the functions, of which each stands for one trial."""
+_POINTS, _FEW = 6, 3
+"""Number of points in each trial, and the same for claims with integrals."""
+_PARTS = 97
+"""Coefficients are multiples of one over this number."""
+
+
+def basis(claim: Claim, judged: Judged, look: LookAtClock) -> Basis:
+    """Return what the verdict on a claim rests on."""
+    meant = claim.meant
+    if meant.basis != Basis.BODY or meant.reached is not None or not judged.good:
+        return meant.basis
+    found = None
+    for sides in _arbitrary(*meant.called):
+        is_true = _is_true(claim, sides, look)
+        if is_true is False:
+            return Basis.BODY
+        found = found or is_true
+    return Basis.DEFINITIONS if found else Basis.BODY
+
+
+def is_empty(claim: Claim, look: LookAtClock) -> bool:
+    """Whether the equation by which a definition is judged is true for any other value, too."""
+    if claim.meant.through is None:
+        return False
+    sides = claim.meant.sides(claim.meant.left, 2 * claim.meant.right + 1)
+    table = dict(claim.meant.meaning)
+    left, right = (side.xreplace(table) for side in sides)
+    return _is_true(claim, (left, right), look) is not False
+
+
+def _is_true(claim: Claim, sides: tuple[Expr, Expr], look: LookAtClock) -> bool | None:
+    """Whether a claim is true with other sides; None if this is not known."""
+    judging = Judging(Sides(claim, *sides, {}), look)
+    try:
+        if (tending := judging.limit()) is not None:
+            return tending.good
+        found = None
+        for point in islice(points(claim), _FEW if has_integral(claim) else _POINTS):
+            may_be_true = claim.meant.is_inequality or near(*sides, partial(dict, point))
+            is_true = may_be_true and judging.is_true(point)
+            if is_true is False:
+                return False
+            found = found or is_true
+    except Undecided:
+        return None
+    return found
+
+
+def _arbitrary(*sides: Expr) -> Iterator[tuple[Expr, Expr]]:
+    """Yield both sides with arbitrary functions in place of the body's formulas."""
+    for sign in _SIGNS:
+        try:
+            left, right = (_with_functions(side, sign) for side in sides)
+        except (UserError, ArithmeticError, TypeError, ValueError):  # no value, or no closed form
+            continue
+        yield left, right
+
+
+def _with_functions(side: Expr, sign: int) -> Expr:
+    found = proper(
+        side.replace(
+            lambda node: isinstance(node, AppliedUndef),
+            lambda call: _function(call.func.__name__, call.args, sign),
+        )
+    )
+    return found.doit() if found.has(Derivative, Limit) else found
+
+
+def _function(name: str, args: tuple[Expr, ...], sign: int) -> Expr:
+    """Return the value of a function without any special property, the same in every run."""
+    rng = random.Random(int.from_bytes(hashlib.sha256(f"{name}{sign}".encode()).digest()[:8]))
+
+    def mixed() -> Expr:
+        shares = [Rational(rng.randint(1, _PARTS), _PARTS) for _ in args]
+        return sum(
+            (share * arg for share, arg in zip(shares, args, strict=True)), start=Rational(0)
+        )
+
+    return sign * (1 + mixed() + mixed() ** 2 + 1 / (1 + mixed() ** 2))

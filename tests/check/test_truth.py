@@ -1,0 +1,170 @@
+"""What is false never holds, what is true never fails, and each verdict says what it rests on."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.check import asking
+
+FREE = """
+body = "none"
+[variables]
+w = { low = 0.5, high = 2 }
+a = { unit = "m" }
+d = { unit = "m" }
+n = { unit = "-" }
+k = { low = 0.1, high = 0.9 }
+m = { low = 0, high = 1 }
+[symbols]
+psi = "w**2"
+F = "1 + w"
+G = "n**2"
+c = "k*a"
+"""
+HERTZ = """
+body = "hertz"
+[variables]
+a = { unit = "m" }
+k = { unit = "-" }
+[symbols]
+c = "k*a"
+P = "load(a, a)"
+p_0 = "2*P/(pi*a)"
+Q = "f*(load(a, a) - load(c, c))"
+"""
+WEDGE = """
+body = "wedge"
+[variables]
+a = { unit = "m" }
+c = { unit = "m" }
+[symbols]
+P = "load(a, c)"
+alpha = "tilt(a, c)"
+"""
+CIRCULAR = HERTZ.replace('"2*P/(pi*a)"', '"3*load(a, a)/(2*pi*a)"')
+AS_Q = 'as = "Q -> 0"\norder = 1'
+TILT = 'as = "alpha -> 0"'
+
+# By hand: Q = f P (1 - k**2), so that k -> 1 as Q -> 0, and (a - c)/a = 1 - k ~ Q/(2 f P); p_0 is
+# E* a/(2 R).  The load of a wedge is E* phi sqrt(a c), and a -> c as its tilt vanishes.
+CASES = [
+    # what an integral, a sum, a limit or a derivative runs over
+    (FREE, "limit(F, psi, 0) = 1 + w", "", "unchecked"),
+    (FREE, "limit(F, psi, 0) = 1", "", "unchecked"),
+    (FREE, "sum(F, psi, 1, 2) = 2*F", "", "unchecked"),
+    (FREE, "integral(F, psi, 0, 1) = F", "", "unchecked"),
+    (FREE, "diff(F, psi) = 0", "", "unchecked"),
+    (FREE, "sum(G, n, 1, 2) = 2*G", "", "unchecked"),  # G is n**2
+    (FREE, "limit(F, w, 0) = 1", "", "by definition"),
+    (FREE, "sum(n**2, n, 1, 2) = 5", "", "holds"),
+    (HERTZ, "limit(Q, c, a) = Q", "", "unchecked"),
+    (HERTZ, "limit(Q, c, a) = 0", "", "unchecked"),
+    (HERTZ, "limit(Q, k, 1) = 0", "", "by definition"),
+    (FREE, "limit(Piecewise((1, x < 0), (2, True)), x, 0) = 2", "", "unchecked"),  # 1 from below
+    # which variable moves
+    (HERTZ, "(a - c)/a ~ Q/(2*f*P)", 'as = "Q -> 0"', "numerical"),
+    (HERTZ, "(a - c)/a ~ Q/(f*P)", 'as = "Q -> 0"', "fails"),
+    (HERTZ, "f*p_0 = f*E_star*a/R", AS_Q, "fails"),
+    (HERTZ, "f*p_0 = f*E_star*a/(2*R)", AS_Q, "numerical"),
+    (HERTZ, "Q ~ f*P", 'as = "c -> 0"', "unchecked"),  # k or a may vanish
+    (WEDGE, "P ~ E_star*phi*a", TILT, "numerical"),
+    (WEDGE, "P ~ 2*E_star*phi*a", TILT, "fails"),
+    (FREE, "log(a/d) ~ log(1/d)", 'as = "d -> 0"', "unchecked"),  # true, but very slowly
+    (FREE, "1/log(d) ~ 2/log(d)", 'as = "d -> 0"', "fails"),
+    (FREE, "d + d*log(d) = d", 'as = "d -> 0"\norder = 1', "fails"),
+    (FREE, "d + d**2*log(d) = d", 'as = "d -> 0"\norder = 1', "numerical"),
+    (FREE, "sin(1/d) + 2 ~ 2", 'as = "d -> 0"', "unchecked"),
+    # what is true by the definitions alone
+    (CIRCULAR, "p_0 = 3*P/(2*pi*a)", "", "by definition"),
+    (CIRCULAR, "P = 2*pi*a*p_0/3", "", "by definition"),
+    (CIRCULAR, "p_0**2 = 9*P**2/(4*pi**2*a**2)", "", "by definition"),
+    (CIRCULAR, "(p_0 + 1)**2 - 1 = 3*P/(pi*a) + 9*P**2/(4*pi**2*a**2)", "", "by definition"),
+    (CIRCULAR, "diff(p_0*a, a) = 3/(2*pi)*diff(P, a)", "", "by definition"),
+    (HERTZ, "p_0 = 2*P/(pi*a)", 'symbols = { P = "p_0*pi*a/2", p_0 = "E_star" }', "by definition"),
+    (CIRCULAR, "p_0 = 2*P/(pi*a)", "", "fails"),
+    (FREE, "c = 5*a", 'through = "c + 1 = 1 + c"', "unchecked"),
+    # inequalities, and what lies beyond the points
+    (FREE, "k**2 < k", "", "holds"),
+    (FREE, "k*m < 1", "", "holds"),
+    (FREE, "k*m <= 0.9", "", "numerical"),  # equal in a corner
+    (FREE, "k*m < 0.9", "", "unchecked"),
+    (FREE, "Piecewise((1, k < 0.2), (2, True)) < 3", "", "numerical"),
+    (FREE, "Max(0, a - 10**7) = 0", "", "unchecked"),
+    (FREE, "Max(0, k - 10**7) = 0", "", "numerical"),
+    (FREE, "tanh(10**9*a) = 1", "", "unchecked"),
+    (FREE, "a = a*(1 + 10**(-90))", "", "fails"),
+    (FREE, "a*(sqrt(2) + sqrt(3)) = a*sqrt(5 + 2*sqrt(6))", "", "holds"),
+    (FREE, "a = 2*a/sqrt(4 + 10**(-90))", "", "fails"),
+]
+
+
+@pytest.mark.usefixtures("unmended")
+@pytest.mark.parametrize(("head", "printed", "more", "verdict"), CASES)
+def test_a_verdict_is_right(
+    tmp_path: Path, head: str, printed: str, more: str, verdict: str
+) -> None:
+    (it,) = asking.told(tmp_path, head + asking.claim(printed, more))
+    assert it["verdict"] == verdict, it["reason"]
+
+
+def test_the_verdict_on_a_limit_says_what_moves(tmp_path: Path) -> None:
+    claim = asking.claim("(a - c)/a ~ Q/(2*f*P)", 'as = "Q -> 0"')
+    (it,) = asking.told(tmp_path, HERTZ + claim)
+    assert "if k moves to 1.0 and E_star, R, a, f stay" in it["reason"]
+
+
+@pytest.mark.parametrize(
+    ("printed", "rests_on"),
+    [
+        ("P = pi*E_star*a**2/(4*R)", "the body"),
+        ("P = integral(pressure(s, a, a), s, -a, a)", "the body"),
+        ("load(c, c) = k**2*P", "the body"),
+        ("P > 0", "the body"),
+        ("sqrt(P**2) = P", "the body"),
+        ("P = load(2*a/2, a)", "your definitions"),
+        ("c**2 = a**2*k**2", "your definitions"),
+        ("p_0 = 3*P/(2*pi*a)", "the body"),  # false
+        ("E_star*(R + a) = E_star*R + E_star*a", "mathematics"),
+        ("P = Z", None),
+    ],
+)
+def test_a_verdict_says_what_it_rests_on(tmp_path: Path, printed: str, rests_on: str) -> None:
+    (it,) = asking.told(tmp_path, HERTZ + asking.claim(printed))
+    assert it["rests_on"] == rests_on
+
+
+GIVEN = """
+[[claims]]
+label = "(1)"
+printed = "p_0 = 4*P/(pi*a)"
+[[claims]]
+label = "(2)"
+printed = "t = 2*a"
+[[claims]]
+label = "(3)"
+printed = "P = p_0*pi*a/4"
+given = ["(1)"]
+[[claims]]
+label = "(4)"
+printed = "P < p_0*a"
+"""
+
+
+@pytest.mark.usefixtures("unmended")
+@pytest.mark.parametrize(
+    ("printed", "given", "verdict", "told"),
+    [
+        ("P = p_0*pi*a/4", "(1)", "holds", "rests on given (1) (fails)"),
+        ("u = 4*a**2", "(2)", "holds", "rests on given (2) (unchecked)"),  # u is t**2
+        ("p_0 = 4*P/(pi*a)", "(3)", "holds", "given (3) (holds, rests on given (1) (fails))"),
+        ("P = p_0*a", "(4)", "unchecked", "does not define a symbol"),
+    ],
+)
+def test_a_claim_says_what_became_of_those_given(
+    tmp_path: Path, printed: str, given: str, verdict: str, told: str
+) -> None:
+    claim = asking.claim(printed, f'given = ["{given}"]')
+    text = HERTZ + 't = ""\nu = "t**2"\n' + GIVEN + claim
+    it = asking.told(tmp_path, text)[-1]
+    assert it["verdict"] == verdict, it["reason"]
+    assert told in it["evidence"]
