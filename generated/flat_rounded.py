@@ -118,7 +118,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Array
         P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols, see the module.
+    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.  For symbols, see the module.
 
     Parameters
     ----------
@@ -159,8 +159,8 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Arr
             segment(t_3)))/(32*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols, see the
-    module.
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.  For
+    symbols, see the module.
 
     Parameters
     ----------
@@ -242,8 +242,11 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
         K_N_left = E_star*sqrt(h)*(t_1/2 + sin(t_1)/2 + segment(t_3/2))/(pi*R)
         K_N_right = E_star*sqrt(h)*(t_3/2 + sin(t_3)/2 + segment(t_1/2))/(pi*R)
 
-    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    For symbols, see the module.
+    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
+    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
+    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
+    quadrature of the defining integral of g(x), at the right edge.  For symbols, see the module.
 
     Parameters
     ----------
@@ -312,8 +315,11 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
         k_left = Piecewise((1/R, a - b > 0), (0, a + b > 0), (1/R, True))
         k_right = Piecewise((1/R, b - c < 0), (0, b + c > 0), (1/R, True))
 
-    Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols, see the module.
+    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
+    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
+    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
+    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
+    g(x), at the right edge.  For symbols, see the module.
 
     Parameters
     ----------

@@ -104,7 +104,7 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
             b)*Max(0, -b + c))/2
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols, see the module.
+    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.  For symbols, see the module.
 
     Parameters
     ----------
@@ -145,8 +145,8 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
             E_star*phi*sqrt(Max(0, a + b)*Max(0, -b + c))*(a - 2*b - c)/8
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols, see the
-    module.
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.  For
+    symbols, see the module.
 
     Parameters
     ----------
@@ -241,8 +241,11 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
         tan_2 = root_ratio(a + b, -b + c)
         cot_2 = root_ratio(-b + c, a + b)
 
-    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    For symbols, see the module.
+    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
+    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
+    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
+    quadrature of the defining integral of g(x), at the right edge.  For symbols, see the module.
 
     Parameters
     ----------
@@ -297,8 +300,11 @@ def L_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
         tan_2 = root_ratio(a + b, -b + c)
         cot_2 = root_ratio(-b + c, a + b)
 
-    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols, see the module.
+    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
+    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
+    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
+    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
+    g(x), at the right edge.  For symbols, see the module.
 
     Parameters
     ----------

@@ -99,7 +99,7 @@ def load(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Array
         P = pi*E_star*(a + c)**2*(16*L**3 + 15*R*a**2 - 18*R*a*c + 15*R*c**2)/(256*L**3*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.
+    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def moment(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Arr
         M = pi*E_star*(a - c)*(a + c)**2*(8*L**3 + 9*R*a**2 - 6*R*a*c + 9*R*c**2)/(256*L**3*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.
 
     Parameters
     ----------
@@ -233,7 +233,11 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Edges:
         K_N_left = E_star*sqrt(a + c)*(8*L**3 + 15*R*a**2 - 6*R*a*c + 3*R*c**2)/(16*L**3*R)
         K_N_right = E_star*sqrt(a + c)*(8*L**3 + 3*R*a**2 - 6*R*a*c + 15*R*c**2)/(16*L**3*R)
 
-    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
+    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
+    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
+    quadrature of the defining integral of g(x), at the right edge.
 
     Parameters
     ----------
@@ -276,8 +280,11 @@ def L_N(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Edges:
         L_N_left = -E_star*(8*L**3 + 55*R*a**2 + 26*R*a*c - 5*R*c**2)/(32*L**3*R*sqrt(a + c))
         L_N_right = E_star*(-8*L**3 + 5*R*a**2 - 26*R*a*c - 55*R*c**2)/(32*L**3*R*sqrt(a + c))
 
-    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.
+    L_N_left: proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth
+    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
+    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
+    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
+    g(x), at the right edge.
 
     Parameters
     ----------

@@ -175,9 +175,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values, k: Values) -> Edges:
             2)*(k - 1), True))
 
     K_N_left: checked numerically to 49 digits at 24 points.  Route: quadrature of the defining
-    integral of g(x), next to the left edge.  K_N_right: checked numerically to 49 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
-    by quadrature.
+    integral of g(x), at the left edge.  K_N_right: checked numerically to 49 digits at 24 points.
+    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
 
     Parameters
     ----------
@@ -213,10 +212,9 @@ def L_N(a: Values, c: Values, *, E_star: Values, L: Values, k: Values) -> Edges:
         FinitePart: the limit of the integral that ends at a distance d from the edge, without
             its term in 1/sqrt(d), as d goes to 0; next to the edge it is integrated by parts
 
-    L_N_left: checked numerically to 36 digits at 24 points.  Route: quadrature of the defining
-    integral of g(x), next to the left edge.  L_N_right: checked numerically to 35 digits at 24
-    points.  Route: quadrature of the defining integral of g(x), next to the right edge.  Evaluated
-    by quadrature.
+    L_N_left: checked numerically to 48 digits at 24 points.  Route: quadrature of the defining
+    integral of g(x), at the left edge.  L_N_right: checked numerically to 49 digits at 24 points.
+    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
 
     Parameters
     ----------

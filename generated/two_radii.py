@@ -118,8 +118,8 @@ def load(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> A
 
         P = E_star*h**2*(segment(t_2)/R_2 + segment(t_1)/R_1)/16
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols, see the module.
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.  For symbols, see the module.
 
     Parameters
     ----------
@@ -162,9 +162,9 @@ def moment(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) ->
         M = E_star*h**2*(-h*(sin(t_2)**3/R_2 - sin(t_1)**3/R_1)/3 + (a - c)*(segment(t_2)/R_2 +
             segment(t_1)/R_1))/32
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols, see the
-    module.
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.  For
+    symbols, see the module.
 
     Parameters
     ----------
@@ -253,8 +253,11 @@ def K_N(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> Ed
         K_N_left = E_star*sqrt(h)*(segment(t_2/2)/R_2 + (t_1 + sin(t_1))/(2*R_1))/pi
         K_N_right = E_star*sqrt(h)*((t_2 + sin(t_2))/(2*R_2) + segment(t_1/2)/R_1)/pi
 
-    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    For symbols, see the module.
+    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
+    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
+    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
+    quadrature of the defining integral of g(x), at the right edge.  For symbols, see the module.
 
     Parameters
     ----------
@@ -306,8 +309,11 @@ def L_N(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> Ed
         k_left = Piecewise((1/R_1, a > 0), (1/R_2, True))
         k_right = Piecewise((1/R_2, c > 0), (1/R_1, True))
 
-    Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols, see the module.
+    L_N_left: proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth
+    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
+    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
+    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
+    g(x), at the right edge.  For symbols, see the module.
 
     Parameters
     ----------

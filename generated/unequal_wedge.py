@@ -205,7 +205,7 @@ def load(a: Values, c: Values, *, E_star: Values, phi_1: Values, phi_2: Values) 
         P = E_star*sqrt(a*c)*(phi_1 + phi_2)/2
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.
+    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.
 
     Parameters
     ----------
@@ -241,8 +241,8 @@ def moment(a: Values, c: Values, *, E_star: Values, phi_1: Values, phi_2: Values
 
         M = E_star*sqrt(a*c)*(a - c)*(phi_1 + phi_2)/8
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.
 
     Parameters
     ----------
@@ -329,7 +329,11 @@ def K_N(a: Values, c: Values, *, E_star: Values, phi_1: Values, phi_2: Values) -
         K_N_left = E_star*sqrt(a*c/(a + c))*(phi_1 + phi_2)/(pi*a)
         K_N_right = E_star*sqrt(a*c/(a + c))*(phi_1 + phi_2)/(pi*c)
 
-    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
+    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
+    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
+    quadrature of the defining integral of g(x), at the right edge.
 
     Parameters
     ----------
@@ -370,8 +374,11 @@ def L_N(a: Values, c: Values, *, E_star: Values, phi_1: Values, phi_2: Values) -
         L_N_left = E_star*sqrt(a*c)*(3*a + 2*c)*(phi_1 + phi_2)/(6*pi*a**2*(a + c)**(3/2))
         L_N_right = E_star*sqrt(a*c)*(2*a + 3*c)*(phi_1 + phi_2)/(6*pi*c**2*(a + c)**(3/2))
 
-    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.
+    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
+    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
+    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
+    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
+    g(x), at the right edge.
 
     Parameters
     ----------

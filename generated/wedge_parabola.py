@@ -116,7 +116,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Arr
         P = E_star*phi*sqrt(Max(0, a)*Max(0, c))/2 + E_star*h**2*segment(t_2)/(16*R)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols, see the module.
+    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.  For symbols, see the module.
 
     Parameters
     ----------
@@ -154,9 +154,9 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> A
         M = E_star*phi*sqrt(Max(0, a)*Max(0, c))*(a - c)/8 + E_star*h**2*(-h*sin(t_2)**3/3 + (a
             - c)*segment(t_2))/(32*R)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols, see the
-    module.
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.  For
+    symbols, see the module.
 
     Parameters
     ----------
@@ -248,8 +248,11 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Edge
         tan_1 = root_ratio(a, c)
         cot_1 = root_ratio(c, a)
 
-    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
-    For symbols, see the module.
+    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
+    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
+    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
+    quadrature of the defining integral of g(x), at the right edge.  For symbols, see the module.
 
     Parameters
     ----------
@@ -311,8 +314,11 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Edge
         k_left = Piecewise((0, a > 0), (1/R, True))
         k_right = Piecewise((1/R, c > 0), (0, True))
 
-    Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: growth of K_N by
-    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols, see the module.
+    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
+    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
+    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
+    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
+    g(x), at the right edge.  For symbols, see the module.
 
     Parameters
     ----------

@@ -135,7 +135,7 @@ def _has_extremes(expr: Expr, held: Mapping[Symbol, Any]) -> bool:
 
 def _is_extreme(part: Any) -> bool:
     """Whether a part is so large or so small that its rounding could hide another part."""
-    if isinstance(part, bool) or not part.is_finite() or part.contains(0):
+    if part is None or isinstance(part, bool) or not part.is_finite() or part.contains(0):
         return False
     size = abs(part)
     return not arb(10) ** -_MODERATE < size < arb(10) ** _MODERATE

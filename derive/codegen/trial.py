@@ -27,14 +27,13 @@ from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.publish import FULL_STICK, LIBRARY
 from derive.command.errors import NotProven
 from derive.proof.points import Point, contacts, named, numeric
+from derive.proof.verdict import WORKING
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c
 
 TOLERANCE = 1e-10
 """Largest error allowed, relative to the size of the result; the error of a wrong formula is much
 larger."""
-
-_DIGITS = 30
 
 _LARGEST = 1e150
 """Largest tilt, load or moment at which a module is tried."""
@@ -49,7 +48,7 @@ def demand_right(sheet: FormulaSheet, text: str, stuck: str) -> None:
     Raises NotProven, which names the function, the point and both numbers.
     """
     name = sheet.geometry.name
-    with imported(name, text, stuck) as module, mpmath.workdps(_DIGITS):
+    with imported(name, text, stuck) as module, mpmath.workdps(WORKING):
         points = _usable(sheet, contacts(sheet))
         for function in CONTRACT:
             if P in function.arguments:

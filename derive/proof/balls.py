@@ -110,12 +110,6 @@ def _sign(value: Ball) -> Ball:
     return value.sgn()
 
 
-def _piecewise(*parts: Any) -> Ball:
-    """The first value, or the midpoint's, whose condition is met: values and conditions in turn."""
-    pairs = zip(parts[::2], parts[1::2], strict=True)
-    return next((value for value, is_met in pairs if is_met), arb("nan"))
-
-
 def _compared(holds: Callable[[arb], bool]) -> Callable[[Ball, Ball], bool]:
     """A condition, decided by the midpoints of two balls."""
     return lambda one, other: holds((acb(one) - acb(other)).real.mid())
@@ -140,7 +134,6 @@ FUNCTIONS: dict[type, Callable[..., Any]] = {
     sympy.elliptic_k: lambda m: _real(acb(m).elliptic_k()),
     sympy.elliptic_e: lambda m: _real(acb(m).elliptic_e()),
     sympy.elliptic_pi: lambda n, m: _real(acb.elliptic_pi(acb(n), acb(m))),
-    sympy.Piecewise: _piecewise,
     sympy.And: lambda *conditions: all(conditions),
     sympy.Or: lambda *conditions: any(conditions),
     sympy.ITE: lambda condition, one, other: one if condition else other,

@@ -120,7 +120,7 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
 
     def at(point: Point) -> mpf:
         try:
-            return mpf(evaluated(expr, point))
+            return mpf(evaluated(expr, point, twice=False))
         except Undefined:
             return mpf("nan")
 
@@ -148,7 +148,7 @@ def numeric_by_steps(steps: Iterable[tuple[Symbol, Expr]], expr: Expr) -> Callab
 
 def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Function]:
     """`expr` at a point as a function of one variable, in balls for quadrature."""
-    return program(expr.subs(e, M / P), variable).function
+    return program(expr.subs(e, M / P), variable, twice=False).function
 
 
 _LEANING = 40

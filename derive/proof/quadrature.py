@@ -4,8 +4,8 @@ In:  g(x) as the user wrote it, and numbers for its parameters and the contact.
 Out: the integrals of theory.equilibrium and theory.pressure, on the pieces between kinks.
 """
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 
 import mpmath
@@ -28,6 +28,7 @@ class Contact:
     a: mpf
     c: mpf
     E_star: mpf
+    _known: dict[mpf, mpf] = field(default_factory=dict)
 
     @cached_property
     def slope(self) -> Function:
@@ -50,26 +51,20 @@ class Contact:
         """Midpoint of the contact."""
         return (self.c - self.a) / 2
 
-    def root(self, s: Ball) -> Ball:
+    @cached_property
+    def root(self) -> Function:
         """w(s) = sqrt((a + s) (c - s))."""
-        return root((ball(self.a) + s) * (ball(self.c) - s))
+        left, right = ball(self.a), ball(self.c)
+        return remembered(lambda s: root((left + s) * (right - s)))
 
-    def integral(self, integrand: Function, *also: mpf) -> mpf:
-        """int_{-a}^{c} integrand(s) ds, cut at the kinks and at the points `also`."""
-        return number(integral(integrand, sorted({-self.a, *self.kinks, *also, self.c})))
+    def integral(self, integrand: Function, low: mpf, high: mpf, *also: mpf) -> mpf:
+        """int integrand(s) ds from `low` to `high`, cut at the kinks and at the points `also`."""
+        kinks = [kink for kink in self.kinks if low < kink < high]
+        return number(integral(integrand, sorted({low, *kinks, *also, high})))
 
     def over_root(self, integrand: Function, *also: mpf) -> mpf:
         """int_{-a}^{c} integrand(s)/w(s) ds, likewise."""
-        return self.integral(lambda s: integrand(s) / self.root(s), *also)
-
-    def outside(self, left: mpf, right: mpf, integrand: Function) -> mpf:
-        """int integrand(s) ds over the contact outside [-left, right]."""
-        total = mpf(0)
-        for edge, end in ((-self.a, -left), (self.c, right)):
-            low, high = min(edge, end), max(edge, end)
-            cuts = [low, *(k for k in self.kinks if low < k < high), high]
-            total += number(integral(integrand, cuts))
-        return total
+        return self.integral(lambda s: integrand(s) / self.root(s), -self.a, self.c, *also)
 
     @cached_property
     def tilt(self) -> mpf:
@@ -89,42 +84,51 @@ class Contact:
         arm = self.over_root(lambda s: s * (s - mid) * (self.slope(s) + tilt))
         return -self.E_star / 2 * arm
 
-    def pressure(self, place: mpf, at_edge: bool = False) -> mpf:
-        """p(x), with the singularity subtracted; the integral is cut at x unless at an edge."""
+    def pressure(self, place: mpf) -> mpf:
+        """p(x)."""
         weight = mpmath.sqrt((self.a + place) * (self.c - place))
-        cuts = [] if at_edge else [place, *self._around(place)]
-        here = ball(place)
+        return self.E_star / (2 * mpmath.pi) * weight * self._principal(place)
+
+    def K_N(self, side: str) -> mpf:
+        """The limit of p/sqrt(s) at an edge, s being the distance from it."""
+        edge, _ = self._edge(side)
+        return self.E_star / (2 * mpmath.pi) * mpmath.sqrt(self.h) * self._principal(edge)
+
+    def L_N(self, side: str) -> mpf:
+        """The limit of (p/sqrt(s) - K_N)/s; p = (E*/2 pi) sqrt(s) sqrt(h - s) F(x)."""
+        edge, inward = self._edge(side)
+        rate = inward * self._principal_rate(edge)
+        growth = mpmath.sqrt(self.h) * rate - self._principal(edge) / (2 * mpmath.sqrt(self.h))
+        return self.E_star / (2 * mpmath.pi) * growth
+
+    def _edge(self, side: str) -> tuple[mpf, int]:
+        """The place of an edge, and the sign of the direction into the contact."""
+        return (-self.a, 1) if side == "left" else (self.c, -1)
+
+    def _principal(self, place: mpf) -> mpf:
+        """F(x) = PV int g'(s)/(w(s) (s - x)) ds, with the singularity subtracted."""
+        if place not in self._known:
+            here = ball(place)
+
+            def quotient(s: Ball) -> Ball:
+                return (self.slope(s) - self.slope(here)) / (s - here)
+
+            self._known[place] = self.over_root(quotient)
+        return self._known[place]
+
+    def _principal_rate(self, edge: mpf) -> mpf:
+        """F'(x) at an edge; a cut between the edge and the next kink keeps its digits."""
+        here = ball(edge)
+        slope = _slope_as_given(self.geometry.g)
+        curvature = remembered(program(diff(slope, x), x).function(self.values))
 
         def quotient(s: Ball) -> Ball:
-            return (self.slope(s) - self.slope(here)) / (s - here)
+            distance = s - here
+            rest = self.slope(s) - self.slope(here) - curvature(here) * distance
+            return rest / (distance * distance)
 
-        return self.E_star / (2 * mpmath.pi) * weight * self.over_root(quotient, *cuts)
-
-    def edge_series(self, side: str) -> tuple[mpf, mpf]:
-        """K_N and L_N from p/sqrt(s) at three points so close to the edge that a parabola fits."""
-        if side not in self._series:
-            with mpmath.workdps(mpmath.mp.dps + 30):
-                s = self.h * mpf(10) ** -20
-                places = [n * s - self.a if side == "left" else self.c - n * s for n in (1, 2, 3)]
-                first, second, third = (
-                    self.pressure(place, at_edge=True) / mpmath.sqrt(n * s)
-                    for n, place in enumerate(places, start=1)
-                )
-                rate = (-5 * first + 8 * second - 3 * third) / 2
-                self._series[side] = 3 * first - 3 * second + third, rate / s
-        return self._series[side]
-
-    @cached_property
-    def _series(self) -> dict[str, tuple[mpf, mpf]]:
-        return {}
-
-    def _around(self, place: mpf) -> Iterator[mpf]:
-        """Points of division around a kink close to `place`, for the kernel 1/(s - place)."""
-        for kink in self.kinks:
-            distance = abs(place - kink)
-            while 0 < distance < self.h:
-                yield from (s for s in (kink - distance, kink + distance) if -self.a < s < self.c)
-                distance *= 8
+        other = min([-self.a, *self.kinks, self.c], key=lambda k: abs(k - edge) or self.h)
+        return self.over_root(quotient, (edge + other) / 2)
 
 
 @cache

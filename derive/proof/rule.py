@@ -7,14 +7,14 @@ On a part, s = low + (high - low) sin(u)**2: integrands that contain roots of th
 ends are smooth in u.  The number of Gauss's nodes in u is doubled until two sums agree.  If they
 approach each other too slowly, nodes that are clustered at the ends are taken instead (tanh-sinh).
 
+If nodes so close to an end leave too few digits of the integrand, it is computed with more.
+
 The check: the integral is computed a second time with every part cut in two at a place that means
 nothing, so that no node is shared.  Ten times the difference is the radius of the result.  A proof
 compares each integral with another route, and goes without.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
 from functools import lru_cache
 from itertools import pairwise
 
@@ -22,11 +22,11 @@ import mpmath
 from flint import arb, ctx
 from mpmath import mpf
 
-from derive.proof.balls import Ball, Function, digits, widened
+from derive.proof.balls import Ball, Function, digits, known_digits, widened
 
-_INSIDE = 3
-"""Digits of an integrand for each digit of the integral: nodes come so close to the ends that
-distances from these need twice as many, and differences of neighbours lose more."""
+_INSIDE = (3, 6)
+"""Digits of an integrand for each digit of the integral, tried in this order: nodes come so close
+to the ends that distances from these need twice as many, and differences of neighbours more."""
 _SPARE = 20
 """Further digits of an integrand."""
 _CONVERGED = 0.6
@@ -62,37 +62,24 @@ def remembered(function: Function) -> Function:
     return at
 
 
-_IS_CHECKED = ContextVar("whether integrals are computed twice", default=True)
-
-
-@contextmanager
-def unchecked() -> Iterator[None]:
-    """Compute integrals only once in a `with` block that compares them with another route."""
-    before = _IS_CHECKED.set(False)
-    try:
-        yield
-    finally:
-        _IS_CHECKED.reset(before)
-
-
-def is_checked() -> bool:
-    """Whether integrals are computed twice."""
-    return _IS_CHECKED.get()
-
-
 def integral(integrand: Function, cuts: Sequence[mpf]) -> Ball:
     """int integrand over [cuts[0], cuts[-1]]; NaN if the integrand has no value on a part of it."""
-    inside = _INSIDE * mpmath.mp.dps + _SPARE
-    with digits(inside):
-        first = _summed_up(integrand, cuts)
-        if not is_checked():
-            return first
-        finer = []
-        for low, high in pairwise(cuts):
-            with mpmath.workdps(inside):
-                finer += [low, low + _NOWHERE * (high - low)]
-        second = _summed_up(integrand, [*finer, cuts[-1]])
-        return widened(first, 10 * abs(first - second).upper())
+    for times in _INSIDE:
+        with digits(times * mpmath.mp.dps + _SPARE):
+            total = _summed_up(integrand, cuts)
+        if known_digits(total) >= mpmath.mp.dps:
+            break
+    return total
+
+
+def checked(integrand: Function, cuts: Sequence[mpf]) -> Ball:
+    """The same integral with a radius from a second computation that shares no node with it."""
+    finer = []
+    for low, high in pairwise(cuts):
+        with mpmath.workdps(3 * mpmath.mp.dps):
+            finer += [low, low + _NOWHERE * (high - low)]
+    first, second = integral(integrand, cuts), integral(integrand, [*finer, cuts[-1]])
+    return widened(first, 10 * abs(first - second).upper())
 
 
 def _summed_up(integrand: Function, cuts: Sequence[mpf]) -> Ball:
@@ -153,7 +140,7 @@ def _summed(integrand: Function, placed: Sequence[tuple[arb, arb]]) -> tuple[Bal
     return total if lost <= _AT_AN_END * whole else arb("nan"), size
 
 
-@lru_cache(maxsize=512)
+@lru_cache(maxsize=4096)
 def _placed(
     low: mpf, high: mpf, nodes: Callable[[int, int, int], Nodes], *which: int
 ) -> Sequence[tuple[arb, arb]]:

@@ -18,6 +18,7 @@ from sympy import (
     Poly,
     S,
     Symbol,
+    cancel,
     count_ops,
     diff,
     expand,
@@ -33,7 +34,7 @@ from sympy import (
 
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet.formulas import FormulaSheet
-from derive.symbols import E_star, P, a, c, dM, dP, e, f, h, mid, s, w, x
+from derive.symbols import E_star, P, a, c, dM, dP, dQ, dsigma, e, f, h, mid, s, w, x
 from derive.theory.algebra import is_zero
 from derive.theory.frame import Frame, KinkFrame
 from derive.theory.slip import pressure_next
@@ -153,6 +154,17 @@ def _grows_by_punches(sheet: FormulaSheet, p: Expr) -> bool:
         )
         for edge, K, opposite in ((c, "K_N_right", a + x), (a, "K_N_left", c - x))
     )
+
+
+def _full_stick(sheet: FormulaSheet, name: str) -> str | None:
+    """int dq = dQ and (1/pi) PV int dq(s)/(t - s) ds = dsigma/4, from certified antiderivatives.
+
+    PV int ds/(w(s) (t - s)) is zero inside the contact, so the value of dq w at t is subtracted.
+    """
+    above, t = sheet[name].expr * w, Symbol("t")
+    strain = certified_integral(cancel((above - above.subs(x, t)) / (t - x)))
+    off = certified_integral(above) - dQ, strain / pi - dsigma / 4
+    return "force and strain from antiderivatives" if not any(map(simplify, off)) else None
 
 
 def _stick(sheet: FormulaSheet, name: str) -> str | None:
@@ -282,6 +294,7 @@ _ROUTES: dict[str, Route] = {
         for of in ("load", "moment", "tilt")
         for edge in (a, c)
     },
+    "full_stick_change": _full_stick,
     **{f"{K}_T_{side}": _stick for K in "KL" for side in ("left", "right")},
     **{f"stick_margin_{side}": _margin for side in ("left", "right")},
     **{f"slip_{side}": _slip for side in ("left", "right")},
@@ -290,5 +303,5 @@ _ROUTES: dict[str, Route] = {
     "contact_c": _substituted,
 }
 
-_FOR_ALL = (_stick, _margin, _slip)
+_FOR_ALL = (_full_stick, _stick, _margin, _slip)
 """Routes that hold for every body."""

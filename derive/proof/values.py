@@ -15,7 +15,22 @@ from typing import Any
 import mpmath
 from flint import acb, arb, ctx
 from mpmath import mpc, mpf
-from sympy import Basic, Expr, Float, I, Integral, Pow, Rational, S, Symbol, nan, oo, pi, zoo
+from sympy import (
+    Basic,
+    Expr,
+    Float,
+    I,
+    Integral,
+    Piecewise,
+    Pow,
+    Rational,
+    S,
+    Symbol,
+    nan,
+    oo,
+    pi,
+    zoo,
+)
 from sympy.core.function import AppliedUndef
 from sympy.core.numbers import Exp1
 from sympy.logic.boolalg import Boolean, BooleanAtom
@@ -34,13 +49,16 @@ from derive.proof.balls import (
     root,
 )
 from derive.proof.kinks import Place, is_unbounded, places
-from derive.proof.rule import integral, is_checked
+from derive.proof.rule import checked, integral
 
 Numbers = Mapping[Symbol, Any]
 """Numbers of mpmath, or balls, for symbols."""
 Operation = Callable[..., Any]
-Step = tuple[int, Operation, tuple[int, ...]]
-"""The number of a value, how it is computed, and the numbers of the values it is computed from."""
+Step = tuple[int, Operation | None, tuple[Any, ...]]
+"""The number of a value, how it is computed, and the numbers of the values it is computed from; or
+None, and branches, the first of whose conditions is met has the value."""
+Branch = tuple[int, list[Step], int]
+"""The number of a condition, the steps that are done if it is met, and the number of the value."""
 
 _GUARD = 6
 """Additional digits of a first attempt."""
@@ -66,12 +84,15 @@ class Undefined(Undecided):
     """There is no value at this point, for example after a division by zero."""
 
 
-def evaluated(expr: Expr, numbers: Numbers) -> Value:
-    """The value to the working precision of mpmath; raises Undecided."""
+def evaluated(expr: Expr, numbers: Numbers, twice: bool = True) -> Value:
+    """The value to the working precision of mpmath; raises Undecided.
+
+    twice: compute each integral twice, for a value that is not compared with another route.
+    """
     working = mpmath.mp.dps
     for times in _ATTEMPTS[:2] if expr.has(Integral) else _ATTEMPTS:
         with mpmath.workdps(times * working + _GUARD), digits(times * working + _GUARD):
-            found = enclosed(expr, numbers)
+            found = enclosed(expr, numbers, twice)
         if known_digits(found) >= working:
             return +number(found)
     if not found.contains(0) or abs(found).upper() > arb(10) ** -working:
@@ -79,9 +100,9 @@ def evaluated(expr: Expr, numbers: Numbers) -> Value:
     return mpf(0)
 
 
-def enclosed(expr: Expr, numbers: Numbers) -> Ball:
+def enclosed(expr: Expr, numbers: Numbers, twice: bool = True) -> Ball:
     """A ball with the value, by the digits of balls that are set; raises Undecided."""
-    found: Ball = program(expr)(numbers)
+    found: Ball = program(expr, None, twice)(numbers)
     if not found.is_finite():
         raise Undefined("there is no value")
     if abs(found).mid() != 0 and abs(int(abs(found).mid().man_exp()[1])) > _FARTHEST:
@@ -96,30 +117,44 @@ class Program:
     """An expression as steps on balls; repeated subexpressions are computed once.
 
     If `along` is given, steps that do not depend on this symbol are done once for all its values.
+    Of a function by branches only the branch that is taken is computed.
+    twice: whether each integral is computed twice, to know its digits.
     """
 
-    def __init__(self, expr: Basic, along: Symbol | None = None) -> None:
-        self._along = along
-        self._number: dict[Basic, int] = {}
-        self._symbols: list[tuple[int, Symbol]] = []
-        self._fixed: list[Step] = []
-        self._moving: list[Step] = []
-        self._moves: list[bool] = []
-        self._add(expr)
+    def __init__(self, expr: Basic, along: Symbol | None, twice: bool) -> None:
+        self._along, self._twice = along, twice
+        symbols = sorted(expr.free_symbols, key=str)
+        self._number: dict[Basic, int] = {symbol: n for n, symbol in enumerate(symbols)}
+        self._given = [(n, symbol) for n, symbol in enumerate(symbols) if symbol != along]
+        self._moves = [symbol == along for symbol in symbols]
+        self._steps: dict[bool, list[Step]] = {False: [], True: []}
+        self._last = self._add(expr)
 
     def _add(self, node: Basic) -> int:
         """Add the steps for a part of the expression; return the number of its value."""
         if node in self._number:
             return self._number[node]
-        operation, args = (None, ()) if isinstance(node, Symbol) else self._operation(node)
-        taken = tuple(map(self._add, args))
+        args: tuple[Any, ...]
+        if isinstance(node, Piecewise):
+            operation, moves = None, self._along in node.free_symbols
+            args = tuple(self._branch(pair.expr, pair.cond, moves) for pair in node.args)
+        else:
+            operation, parts = self._operation(node)
+            args = tuple(map(self._add, parts))
+            moves = any(self._moves[arg] for arg in args)
         place = self._number[node] = len(self._moves)
-        self._moves.append(node == self._along or any(self._moves[arg] for arg in taken))
-        if operation is not None:
-            (self._moving if self._moves[-1] else self._fixed).append((place, operation, taken))
-        elif not self._moves[-1]:
-            self._symbols.append((place, node))
+        self._moves.append(moves)
+        self._steps[moves].append((place, operation, args))
         return place
+
+    def _branch(self, value: Expr, condition: Basic, moves: bool) -> Branch:
+        """A branch; what is computed only in it is not known outside it."""
+        holds = self._add(condition)
+        known, outside = self._number.copy(), self._steps[moves]
+        steps = self._steps[moves] = []
+        found = self._add(value)
+        self._number, self._steps[moves] = known, outside
+        return holds, steps, found
 
     def _operation(self, node: Basic) -> tuple[Operation, tuple[Basic, ...]]:
         if node in _CONSTANTS:
@@ -132,7 +167,8 @@ class Program:
             return (lambda: ball(mpf(node._mpf_))), ()
         if isinstance(node, Integral):
             held = tuple(sorted(node.free_symbols, key=str))
-            return (lambda *values: _integrated(node, dict(zip(held, values, strict=True)))), held
+            twice = self._twice
+            return (lambda *v: _integrated(node, dict(zip(held, v, strict=True)), twice)), held
         if isinstance(node, Pow):
             exponent = int(node.exp) if node.exp.is_Integer else 0
             if exponent:
@@ -146,8 +182,6 @@ class Program:
 
     def _grouped(self, node: Expr) -> tuple[Basic, ...]:
         """Arguments, with terms or factors that do not vary along the symbol taken together."""
-        if node.func.__name__ == "Piecewise":
-            return tuple(part for pair in node.args for part in pair.args)
         if self._along is None or not (node.is_Add or node.is_Mul) or len(node.args) < 3:
             return tuple(node.args)
         fixed = [arg for arg in node.args if not arg.has(self._along)]
@@ -157,14 +191,14 @@ class Program:
 
     def __call__(self, numbers: Numbers) -> Any:
         """The value for the numbers of all symbols."""
-        return self.parts(numbers)[-1]
+        return self.parts(numbers)[self._last]
 
     def parts(self, numbers: Numbers) -> list[Any]:
-        """The values of all parts that are fixed, and None for others."""
+        """The values of all parts that are fixed, and None for others and for those not needed."""
         values: list[Any] = [None] * len(self._moves)
-        for place, symbol in self._symbols:
+        for place, symbol in self._given:
             values[place] = ball(numbers[symbol])
-        return _filled(values, self._fixed)
+        return _filled(values, self._steps[False])
 
     def function(self, numbers: Numbers) -> Function:
         """The value as a function of the symbol `along`; others have the given numbers."""
@@ -177,7 +211,7 @@ class Program:
             values = known[ctx.prec].copy()
             if at is not None:
                 values[at] = place
-            found: Ball = _filled(values, self._moving)[-1]
+            found: Ball = _filled(values, self._steps[True])[self._last]
             return found
 
         return value
@@ -185,7 +219,11 @@ class Program:
 
 def _filled(values: list[Any], steps: list[Step]) -> list[Any]:
     for place, operation, args in steps:
-        values[place] = operation(*[values[arg] for arg in args])
+        if operation is None:
+            taken = next((each[1:] for each in args if values[each[0]]), None)
+            values[place] = arb("nan") if taken is None else _filled(values, taken[0])[taken[1]]
+        else:
+            values[place] = operation(*[values[arg] for arg in args])
     return values
 
 
@@ -205,9 +243,9 @@ _CONSTANTS: dict[Basic, Operation] = {
 
 
 @lru_cache(maxsize=5000)
-def program(expr: Expr, along: Symbol | None = None) -> Program:
+def program(expr: Expr, along: Symbol | None = None, twice: bool = True) -> Program:
     """The steps of an expression."""
-    return Program(expr, along)
+    return Program(expr, along, twice)
 
 
 def _by_mpmath(node: Basic) -> Operation:
@@ -242,17 +280,17 @@ def _separated(over: Integral) -> tuple[Expr, Expr, tuple[Symbol, Expr, Expr]]:
 _KNOWN: dict[tuple[Any, ...], Ball | Undecided] = {}
 
 
-def _integrated(over: Integral, numbers: Numbers) -> Ball:
+def _integrated(over: Integral, numbers: Numbers, twice: bool) -> Ball:
     """The integral to the working digits of mpmath; remembered."""
     factor, inside, limits = _separated(over)
     held = sorted(Integral(inside, limits).free_symbols, key=str)
     key = (
-        *(inside, *limits, mpmath.mp.dps, is_checked()),
+        *(inside, *limits, mpmath.mp.dps, twice),
         *(number(part) for symbol in held for part in (numbers[symbol], numbers[symbol].rad())),
     )
     if key not in _KNOWN:
         try:
-            _KNOWN[key] = _computed(inside, *limits, numbers)
+            _KNOWN[key] = _computed(inside, *limits, numbers, twice)
         except Undecided as error:
             _KNOWN[key] = error
     known = _KNOWN[key]
@@ -261,7 +299,9 @@ def _integrated(over: Integral, numbers: Numbers) -> Ball:
     return program(factor)(numbers) * known
 
 
-def _computed(inside: Expr, variable: Symbol, low: Expr, high: Expr, numbers: Numbers) -> Ball:
+def _computed(
+    inside: Expr, variable: Symbol, low: Expr, high: Expr, numbers: Numbers, twice: bool
+) -> Ball:
     working = mpmath.mp.dps
     with mpmath.workdps(3 * working), digits(4 * working):  # so that roots vanish at the ends
         start, end = (+number(program(each)(numbers)) for each in (low, high))
@@ -271,10 +311,10 @@ def _computed(inside: Expr, variable: Symbol, low: Expr, high: Expr, numbers: Nu
             return arb(0)
         sense, (start, end) = (1, (start, end)) if start < end else (-1, (end, start))
         cuts = _cuts(start, end, _zeros(inside, variable, numbers, start, end))
-    integrand = program(inside, variable).function(numbers)
+    integrand = program(inside, variable, twice).function(numbers)
     if is_unbounded(inside, variable):
         _demand_no_pole(integrand, cuts, variable)
-    total = integral(integrand, list(cuts))
+    total = (checked if twice else integral)(integrand, list(cuts))
     if not total.is_finite():
         raise Undecided("the numerical integration does not converge")
     return sense * total

@@ -145,3 +145,17 @@ def test_integrals_are_cut_where_their_integrand_is_not_smooth() -> None:
         two = Integral(abs(s - y), (s, 0, 1), (y, 0, 1))
         assert mpmath.almosteq(evaluated(two, {}), mpf(1) / 3)
         assert evaluated(Integral(s**2, (s, 1, 0)), {}) == -mpf(1) / 3
+
+
+def test_of_a_function_by_branches_only_the_branch_taken_is_computed() -> None:
+    """A branch that is not taken may have no value; what it shares with others is computed."""
+    s = Symbol("s", real=True)
+    diverges = Integral(1 / s, (s, -1, 1))
+    apart = Piecewise((diverges + sqrt(s), n < 1), (sqrt(s) + n, True)) + sqrt(s)
+    inner = Piecewise((Piecewise((sqrt(s) * n, s > 2), (s**2, True)), s > 1), (sqrt(s), True))
+    with mpmath.workdps(30), digits(40):
+        four = program(apart)({s: mpf(4), n: mpf(2)})
+        nested = [program(inner, s).function({n: mpf(3)})(ball(mpf(v))) for v in (0.25, 1.5, 4)]
+        assert number(four) == 6
+        assert [number(value) for value in nested] == [0.5, 2.25, 6]
+        assert mpmath.isnan(number(program(Piecewise((s, s > 1)))({s: mpf(0)})))

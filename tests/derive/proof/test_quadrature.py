@@ -37,6 +37,22 @@ def test_a_cylinder_by_hand(left: float, right: float) -> None:
     place = (mpf(right) - left) / 2 + mpf("0.25")
     expected = E * mpmath.sqrt((left + place) * (right - place)) / (2 * radius)
     assert close(here.pressure(place), expected)
+    for side in ("left", "right"):  # sqrt(h - s) = sqrt(h) (1 - s/2h + ...)
+        assert close(here.K_N(side), E * mpmath.sqrt(width) / (2 * radius))
+        assert close(here.L_N(side), -E / (4 * radius * mpmath.sqrt(width)))
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_edges_of_a_wedge_by_hand(side: str) -> None:
+    """p = (2 E* phi/pi) asinh(z), z**2 = s/(2 (a - s)), close to the edge of a = c.
+
+    asinh(z) = z - z**3/6 + ... and z = sqrt(s/2a) (1 + s/2a + ...), so that
+    K_N = 2 E* phi/(pi sqrt(2 a)) and L_N = K_N (1/2a - 1/12a).
+    """
+    here, half = contact("wedge", 2.0, 2.0), mpf(2)
+    K_N = 2 * mpf(VALUES["E_star"]) * mpf(VALUES["phi"]) / (mpmath.pi * mpmath.sqrt(2 * half))
+    assert close(here.K_N(side), K_N)
+    assert close(here.L_N(side), K_N * 5 / (12 * half))
 
 
 @pytest.mark.parametrize(("name", "left", "right"), CASES)
@@ -66,12 +82,12 @@ def test_powers_of_a_ramp(ramp: Expr, power: Expr) -> None:
 
 def test_integrals_over_a_contact_by_hand() -> None:
     """int w ds = pi h^2/8, int w s ds = mid times it; a logarithm at a kink is integrable."""
-    here = contact("wedge", 2.0, 1.0)
+    here, ends = contact("wedge", 2.0, 1.0), (mpf(-2), mpf(1))
 
-    assert close(here.integral(here.root), mpmath.pi * 9 / 8)
-    assert close(here.integral(lambda s: s * here.root(s)), -mpmath.pi * 9 / 16)
+    assert close(here.integral(here.root, *ends), mpmath.pi * 9 / 8)
+    assert close(here.integral(lambda s: s * here.root(s), *ends), -mpmath.pi * 9 / 16)
     # int_{-2}^{1} log|s| ds = (1 log 1 - 1) + (2 log 2 - 2)
-    found = here.integral(lambda s: abs(s).log())
+    found = here.integral(lambda s: abs(s).log(), *ends)
     assert close(found, 2 * mpmath.log(2) - 3, digits=18)
 
 
