@@ -1,5 +1,4 @@
-# make        derives and proves every geometry, regenerates generated/, checks the paper;
-#             nothing is taken from an earlier run, so that every proof and time is of this one
+# make        derives and proves every geometry, regenerates generated/, checks the paper
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that do not take long
 # make thorough  all tests: more bodies, cases and points than make test takes
@@ -28,7 +27,7 @@ PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal
 	lab picture docs clean
 
 all: $(STAMP)
-	$(BIN)/derive generate --fresh
+	$(BIN)/derive generate
 	$(BIN)/derive check --html build/paper.html
 
 test: $(STAMP)

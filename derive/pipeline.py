@@ -12,22 +12,22 @@
     publish        files, a directory         the directory, replaced as a whole
     differences    files, a directory         the changes that would be made
 
-    build          a name or a file           BuiltBody: the first five stages, as plain data
-    build_all      names and files            a BuiltBody for each: several built at once, or read
-                                              from the cache
+    sheet_and_body  a name or a file          the proven sheet and a BuiltBody: the stages to here
+    build_all      names and files            a BuiltBody for each; several are built at once
 
-A missing proof stops the build at module_text or demand_right, and nothing is written.  `build`
-imports its stages only when it is called, because cached bodies do not need them.
+A missing proof stops the build at module_text or demand_right, and nothing is written.
+`sheet_and_body` imports its stages only when it is called, because only it needs SymPy.
 """
 
 import ast
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING, TypeVar
 
-from derive.body.library import FOLDER, is_in_library, library, load_geometry
+from derive.body.library import is_in_library, library, load_geometry
 from derive.codegen.publish import (
     FULL_STICK,
     RUNTIME,
@@ -37,12 +37,16 @@ from derive.codegen.publish import (
     package_files,
     publish,
 )
-from derive.command.cache import key_of, program_as_loaded, program_digest, users_cache
 from derive.command.errors import BadOutput, BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
 from derive.command.folder import demand_replaceable
 from derive.command.limit import DEFAULT
 from derive.command.processes import Bounds, Report, in_processes
 from derive.sheet.built import BuiltBody, by_form
+
+if TYPE_CHECKING:
+    from derive.sheet.formulas import FormulaSheet
+
+Made = TypeVar("Made")
 
 GENERATED = Path(__file__).parent.parent / "generated"
 """The package under version control."""
@@ -54,16 +58,18 @@ STAGES = (
 USER_FILE_LIMITS = Bounds(seconds=600, gigabytes=4, stages={STAGES[0]: 60})
 """Limits for a body outside the library; none of twenty such bodies needed a tenth of them."""
 
-DONE, KEPT = "done", "kept"
-"""Stages reported for a body that is finished, and for one that is read from the cache."""
+DONE = "done"
+"""The stage reported for a body that is finished."""
 
 
 def _silent(body: str, stage: str) -> None:
     """Ignore a report."""
 
 
-def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> BuiltBody:
-    """Build one body, from its name or file to the text of its module.
+def sheet_and_body(
+    source: str, report: Report = _silent, limit: float = DEFAULT
+) -> "tuple[FormulaSheet, BuiltBody]":
+    """Build one body, from its name or file to the text of its module; its proven sheet as well.
 
     limit: time in seconds for the search for closed forms of integrals; the text of the module does
     not depend on its outcome.
@@ -96,40 +102,49 @@ def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Buil
         raise BadProfile(geometry.name, why, remedy) from error
     closed, numerical = by_form(sheet.is_closed)
     verdicts = tuple((name, f.proof.verdict) for name, f in sheet.items() if f.proof)
-    proofs = tuple((name, str(f.proof)) for name, f in sheet.items() if f.proof)
     time_limit_note = sheet.remark if sheet.remark.startswith(NONE_IN_TIME) else ""
     seconds = perf_counter() - began
-    return BuiltBody(
-        geometry.name, text, stuck, seconds, closed, numerical, verdicts, proofs, time_limit_note
+    body = BuiltBody(
+        geometry.name, text, stuck, seconds, closed, numerical, verdicts, time_limit_note
     )
+    return sheet, body
 
 
 def build_all(
-    sources: Sequence[str],
-    report: Report = _silent,
-    jobs: int = 1,
-    fresh: bool = False,
-    limit: float = DEFAULT,
+    sources: Sequence[str], report: Report = _silent, jobs: int = 1, limit: float = DEFAULT
 ) -> list[BuiltBody]:
-    """The bodies of all sources, in order; `jobs` processes build those that are not in the cache.
+    """The bodies of all sources, in order; `jobs` processes build them.
 
-    fresh: build all bodies and do not read the cache.
     limit: time in seconds for the search for the closed forms of one body.
 
-    Raises what `build` raises for the first source that fails, and stops work on the others.
-    Raises LostProcess if a process ends early, TwoOfOneName before anything is built if the files
-    state the same name, and RanAway for a file whose body exceeds the limits USER_FILE_LIMITS.
+    Raises what `sheet_and_body` raises for the first source that fails, and stops work on the
+    others, and what `each_in_process` raises.
+    """
+    return each_in_process(_build, sources, report, jobs, limit)
+
+
+def each_in_process(
+    make: Callable[[tuple[str, float], Report], Made],
+    sources: Sequence[str],
+    report: Report,
+    jobs: int,
+    limit: float,
+) -> list[Made]:
+    """What `make` returns for every source and the time limit; `jobs` processes are at work.
+
+    Raises LostProcess if a process ends early, TwoOfOneName before anything is made if the files
+    state the same name, and RanAway for a file that exceeds the limits USER_FILE_LIMITS.
     """
     _demand_names_of_their_own(sources)
-    keys = _keys(sources, limit)
-    bodies = {} if fresh else _kept(keys)
-    for source in bodies:
-        report(source, KEPT)
-    missing = [(source, key, limit) for source, key in keys.items() if source not in bodies]
-    bounds = None if all(is_in_library(source) for source, *_ in missing) else USER_FILE_LIMITS
-    made = in_processes(_build_and_keep, missing, report, jobs, bounds)
-    bodies |= {source: body for (source, *_), body in zip(missing, made, strict=True)}
-    return [bodies[source] for source in sources]
+    bounds = None if all(map(is_in_library, sources)) else USER_FILE_LIMITS
+    return in_processes(make, [(source, limit) for source in sources], report, jobs, bounds)
+
+
+def _build(asked: tuple[str, float], report: Report) -> BuiltBody:
+    source, limit = asked
+    _, body = sheet_and_body(source, report, limit)
+    report(source, DONE)
+    return body
 
 
 def _demand_names_of_their_own(sources: Iterable[str]) -> None:
@@ -156,45 +171,10 @@ def stated_name(source: str) -> str:
     return ""
 
 
-def _keys(sources: Iterable[str], limit: float) -> dict[str, str | None]:
-    """Every source once, with the key of its body, or None if the body is never kept."""
-    if users_cache().folder is None:
-        return dict.fromkeys(sources)
-    program = program_as_loaded()
-    return {source: _key(source, program, limit) for source in sources}
-
-
-def _key(source: str, program: str, limit: float) -> str | None:
-    """The key of a body; it includes an unusual limit, which may lead to other closed forms."""
-    origin = _origin(source) if limit == DEFAULT else f"{_origin(source)} within {limit:g} s"
-    return key_of(_path(source), origin, program)
-
-
-def _kept(keys: Mapping[str, str | None]) -> dict[str, BuiltBody]:
-    """Cached bodies, by source."""
-    found = {source: users_cache().get(key) for source, key in keys.items()}
-    return {source: body for source, body in found.items() if body}
-
-
-def _build_and_keep(asked: tuple[str, str | None, float], report: Report) -> BuiltBody:
-    """Build one body, and keep it under its key unless a file it depends on has changed."""
-    source, key, limit = asked
-    body = build(source, report, limit)
-    if key is not None and key == _key(source, program_digest(), limit):
-        users_cache().put(key, body)
-    report(source, DONE)
-    return body
-
-
 def _is_file(source: str) -> bool:
     with suppress(OSError, ValueError):  # not a valid file name
         return Path(source).is_file()
     return False
-
-
-def _path(source: str) -> Path:
-    """The file that contains g(x)."""
-    return FOLDER / f"{source}.py" if is_in_library(source) else Path(source)
 
 
 def _origin(source: str) -> str:

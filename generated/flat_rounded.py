@@ -285,8 +285,8 @@ def _L_N(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Edges:
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
         h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
     )
-    k_left = where(a - b > 0, 1 / R, where(a + b > 0, 0, 1 / R))  # g'' at the left edge [m**(-1)]
-    k_right = where(b - c < 0, 1 / R, where(b + c > 0, 0, 1 / R))  # g'' at the right edge [m**(-1)]
+    k_left = where(a - b > 0, 1 / R, where(a + b > 0, 0, 1 / R))  # g'' at the left edge [1/m]
+    k_right = where(b - c < 0, 1 / R, where(b + c > 0, 0, 1 / R))  # g'' at the right edge [1/m]
     L_N_left = (E_star / (3 * np.pi)) * (
         (1 / R - k_left) * second_term(t_3, 0, sin_2)
         - k_left * second_term(t_2, cos_1 * cos_2, sin_1 * sin_2)

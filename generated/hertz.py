@@ -43,9 +43,8 @@ __all__ += ["tension_threshold", "tilt", "why"]
 def _contact(P: Array, M: Array, E_star: Array, R: Array) -> Contact:
     """Contact and tilt under the load P and the moment M."""
     e = M / P  # lever arm of the load [m]
-    half = 2 * np.sqrt((R / (np.pi * E_star)) * P)  # half the contact width [m]
-    a = e + half
-    c = half - e
+    a = e + 2 * np.sqrt((R / (np.pi * E_star)) * P)
+    c = 2 * np.sqrt((R / (np.pi * E_star)) * P) - e
     alpha = e / R
     h = a + c  # contact width [m]
     exists = (P > 0) & (h > LEAST) & (h < MOST)
@@ -86,9 +85,8 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, R: Values) -> Contact
 @shared
 def _contact_at_tilt(P: Array, alpha: Array, E_star: Array, R: Array) -> Contact:
     """Contact under the load P at the tilt alpha."""
-    half = 2 * np.sqrt((R / (np.pi * E_star)) * P)  # half the contact width [m]
-    a = alpha * R + half
-    c = half - alpha * R
+    a = alpha * R + 2 * np.sqrt((R / (np.pi * E_star)) * P)
+    c = 2 * np.sqrt((R / (np.pi * E_star)) * P) - alpha * R
     h = a + c  # contact width [m]
     exists = (P > 0) & (h > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))

@@ -309,8 +309,8 @@ def _L_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
     h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
     t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
-    k_left = where(a - b > 0, 0, where(a + b > 0, phi / b, 0))  # g'' at the left edge [m**(-1)]
-    k_right = where(b - c < 0, 0, where(b + c > 0, phi / b, 0))  # g'' at the right edge [m**(-1)]
+    k_left = where(a - b > 0, 0, where(a + b > 0, phi / b, 0))  # g'' at the left edge [1/m]
+    k_right = where(b - c < 0, 0, where(b + c > 0, phi / b, 0))  # g'' at the right edge [1/m]
     L_N_left = (E_star / (3 * np.pi)) * (
         (phi / b - k_left) * second_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
         - k_left * second_term(t_3, 0, sin_2)

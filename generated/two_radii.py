@@ -285,8 +285,8 @@ def _L_N(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     h, t_1, t_2, exists = _angles(a, c)
     sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # sine of half the angle of x = 0 [-]
     cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # cosine of half the angle of x = 0 [-]
-    k_left = where(a > 0, 1 / R_1, 1 / R_2)  # g'' at the left edge [m**(-1)]
-    k_right = where(c > 0, 1 / R_2, 1 / R_1)  # g'' at the right edge [m**(-1)]
+    k_left = where(a > 0, 1 / R_1, 1 / R_2)  # g'' at the left edge [1/m]
+    k_right = where(c > 0, 1 / R_2, 1 / R_1)  # g'' at the right edge [1/m]
     L_N_left = (E_star / (3 * np.pi)) * (1 / R_2 - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(
         h
     ) - (E_star / 4) * k_left / np.sqrt(h)

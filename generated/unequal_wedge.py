@@ -42,21 +42,13 @@ __all__ += ["tension_threshold", "tilt", "why"]
 @shared
 def _contact(P: Array, M: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Contact:
     """Contact and tilt under the load P and the moment M."""
-    e = M / P  # lever arm of the load [m]
-    lean = 2 * e
-    reach = np.abs(lean)  # distance by which the moment shifts the contact [m]
     base = (2 / (E_star * (phi_1 + phi_2))) * P  # half-width without the moment [m]
-    longer = np.maximum(base, reach)
-    quotient = np.minimum(base, reach) / longer
-    root = longer * np.sqrt(quotient**2 + 1)
-    far = reach + root  # the farther edge [m]
-    leaning = far * np.sign(lean)  # the farther edge, with the sign of its side [m]
-    near = base * (2 * P / ((phi_1 + phi_2) * (E_star * far)))  # the nearer edge [m]
-    a = np.maximum(leaning, near)
-    c = np.maximum(-leaning, near)
+    e = M / P  # lever arm of the load [m]
+    reach = np.sqrt(base**2 + 4 * e**2)  # half-width with the moment [m]
+    a = where(e > 0, 2 * e + reach, base**2 / (reach - 2 * e))
+    c = where(e < 0, reach - 2 * e, base**2 / (2 * e + reach))
     alpha = (
-        phi_1 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, -lean)
-        - phi_2 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, lean)
+        np.pi * phi_1 - phi_1 * np.arctan2(base, 2 * e) - phi_2 * np.arctan2(base, 2 * e)
     ) / np.pi
     h = a + c  # contact width [m]
     exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
@@ -101,16 +93,15 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, phi_1: Values, phi_2:
 @shared
 def _contact_at_tilt(P: Array, alpha: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Contact:
     """Contact under the load P at the tilt alpha."""
-    angle = (np.pi / (2 * (phi_1 + phi_2))) * (phi_1 - alpha)  # half the angle of the corner [-]
-    scale = (2 / (E_star * phi_1 + E_star * phi_2)) * P
-    # its difference from a right angle [-]
-    rest = (np.pi / (2 * (phi_1 + phi_2))) * (alpha + phi_2)
-    tangent = np.tan(np.minimum(angle, rest))
-    far = scale / tangent  # distance from the corner to the farther edge [m]
-    leaning = far * np.sign(rest - angle)  # the farther edge, with the sign of its side [m]
-    near = scale * tangent  # distance from the corner to the nearer edge [m]
-    a = np.maximum(leaning, near)
-    c = np.maximum(-leaning, near)
+    scale = -((2 / (E_star * (phi_1 + phi_2))) * P)
+    # from the nearer of 0 and a right angle [-]
+    tangent = where(
+        (np.pi / (phi_1 + phi_2)) * np.abs(alpha - phi_1) < np.pi / 2,
+        np.tan((np.pi / (2 * (phi_1 + phi_2))) * (alpha - phi_1)),
+        -1 / np.tan((np.pi / (2 * (phi_1 + phi_2))) * (alpha + phi_2)),
+    )
+    a = scale / tangent
+    c = tangent * scale
     h = a + c  # contact width [m]
     exists = (P > 0) & (alpha > -phi_2) & (alpha < phi_1) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
@@ -156,7 +147,7 @@ def _tilt(a: Array, c: Array, phi_1: Array, phi_2: Array) -> Array:
     """Tilt at which the contact is [-a, c]."""
     # angle of the contact beyond the kink x = 0 [-]
     theta_1 = 2 * np.arctan2(np.sqrt(c), np.sqrt(a))
-    alpha = ((2 * phi_1) * np.arctan(np.sqrt(a / c)) - theta_1 * phi_2) / np.pi
+    alpha = (np.pi * phi_1 - theta_1 * phi_1 - theta_1 * phi_2) / np.pi
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return where(exists, alpha, np.nan)
@@ -193,7 +184,8 @@ def tilt(a: Values, c: Values, *, phi_1: Values, phi_2: Values) -> Array:
 @shared
 def _load(a: Array, c: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Normal load that makes the contact [-a, c]."""
-    P = (E_star * (phi_1 + phi_2) / 2) * np.sqrt(a * c)
+    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
+    P = (E_star * (phi_1 + phi_2) / 2) * w_1
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return where(exists, P, np.nan)
@@ -230,7 +222,8 @@ def load(a: Values, c: Values, *, E_star: Values, phi_1: Values, phi_2: Values) 
 @shared
 def _moment(a: Array, c: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Moment that makes the contact [-a, c]."""
-    M = (E_star * (phi_1 + phi_2) / 8) * (a - c) * np.sqrt(a * c)
+    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
+    M = (E_star * (phi_1 + phi_2) / 8) * w_1 * (a - c)
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return where(exists, M, np.nan)
@@ -268,10 +261,9 @@ def moment(a: Values, c: Values, *, E_star: Values, phi_1: Values, phi_2: Values
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c]."""
     h = a + c  # contact width [m]
-    left_1 = (a + x) * (2 * c / h)  # zero at the left edge [m]
-    right_1 = (c - x) * (2 * a / h)  # zero at the right edge [m]
-    logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
-    p = (E_star * (phi_1 + phi_2) / (2 * np.pi)) * logarithm_1
+    p = (E_star * (phi_1 + phi_2) / (2 * np.pi)) * kink_logarithm(
+        (2 * c / h) * (a + x), (2 * a / h) * (c - x), x
+    )
     exists = (np.minimum(a, c) > LEAST) & (h < MOST) & (x == x)
     return where(exists, p, np.nan)
 
@@ -316,9 +308,10 @@ def pressure(
 def _K_N(a: Array, c: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (E_star * (phi_1 + phi_2) / np.pi) / np.sqrt(a * c * h)
-    K_N_left = c * scale
-    K_N_right = a * scale
+    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
+    scale = (E_star * (phi_1 + phi_2) / np.pi) * w_1 / np.sqrt(h)
+    K_N_left = scale / a
+    K_N_right = scale / c
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
@@ -361,9 +354,10 @@ def K_N(a: Values, c: Values, *, E_star: Values, phi_1: Values, phi_2: Values) -
 def _L_N(a: Array, c: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (E_star * (phi_1 + phi_2) / (6 * np.pi)) / np.sqrt(a * c * h)
-    L_N_left = scale * (c / h + 2 * c / a)
-    L_N_right = scale * (a / h + 2 * a / c)
+    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
+    scale = (E_star * (phi_1 + phi_2) / (6 * np.pi)) * w_1 / (h * np.sqrt(h))
+    L_N_left = scale * (3 * a + 2 * c) / a**2
+    L_N_right = scale * (2 * a + 3 * c) / c**2
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 

@@ -42,19 +42,12 @@ __all__ += ["tension_threshold", "tilt", "why"]
 @shared
 def _contact(P: Array, M: Array, E_star: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M."""
-    e = M / P  # lever arm of the load [m]
-    lean = 2 * e
-    reach = np.abs(lean)  # distance by which the moment shifts the contact [m]
     base = P / (E_star * phi)  # half-width without the moment [m]
-    longer = np.maximum(base, reach)
-    quotient = np.minimum(base, reach) / longer
-    root = longer * np.sqrt(quotient**2 + 1)
-    far = reach + root  # the farther edge [m]
-    leaning = far * np.sign(lean)  # the farther edge, with the sign of its side [m]
-    near = base * (P / (phi * (E_star * far)))  # the nearer edge [m]
-    a = np.maximum(leaning, near)
-    c = np.maximum(-leaning, near)
-    alpha = (2 * phi / np.pi) * np.arctan(lean / base)
+    e = M / P  # lever arm of the load [m]
+    reach = np.sqrt(base**2 + 4 * e**2)  # half-width with the moment [m]
+    a = where(e > 0, 2 * e + reach, base**2 / (reach - 2 * e))
+    c = where(e < 0, reach - 2 * e, base**2 / (2 * e + reach))
+    alpha = (2 * phi / np.pi) * np.arctan((2 * E_star * phi) * e / P)
     h = a + c  # contact width [m]
     exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
@@ -94,19 +87,15 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, phi: Values) -> Conta
 @shared
 def _contact_at_tilt(P: Array, alpha: Array, E_star: Array, phi: Array) -> Contact:
     """Contact under the load P at the tilt alpha."""
-    scale = P / (E_star * phi)
-    # half the smaller angle of the corner [-]
-    angle = where(
-        np.abs(alpha) < phi / 2,
-        np.pi / 4 - (np.pi / 4) * (np.abs(alpha) / phi),
-        (np.pi / 4) * ((phi - np.abs(alpha)) / phi),
+    scale = -(P / (E_star * phi))
+    # from the nearer of 0 and a right angle [-]
+    tangent = where(
+        (np.pi / phi) * np.abs(alpha - phi) < np.pi,
+        np.tan((np.pi / (4 * phi)) * (alpha - phi)),
+        -1 / np.tan((np.pi / (4 * phi)) * (alpha + phi)),
     )
-    tangent = np.tan(angle)
-    far = scale / tangent  # distance from the corner to the farther edge [m]
-    leaning = far * np.sign(alpha)  # the farther edge, with the sign of its side [m]
-    near = scale * tangent  # distance from the corner to the nearer edge [m]
-    a = np.maximum(leaning, near)
-    c = np.maximum(-leaning, near)
+    a = scale / tangent
+    c = tangent * scale
     h = a + c  # contact width [m]
     exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
@@ -144,7 +133,8 @@ def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, phi: Valu
 @shared
 def _tilt(a: Array, c: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c]."""
-    alpha = (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c)))
+    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
+    alpha = (2 * phi / np.pi) * np.arctan2(a - c, 2 * w_1)
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return where(exists, alpha, np.nan)
@@ -181,7 +171,8 @@ def tilt(a: Values, c: Values, *, phi: Values) -> Array:
 @shared
 def _load(a: Array, c: Array, E_star: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c]."""
-    P = (E_star * phi) * np.sqrt(a * c)
+    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
+    P = (E_star * phi) * w_1
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return where(exists, P, np.nan)
@@ -217,7 +208,8 @@ def load(a: Values, c: Values, *, E_star: Values, phi: Values) -> Array:
 @shared
 def _moment(a: Array, c: Array, E_star: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c]."""
-    M = (E_star * phi / 4) * (a - c) * np.sqrt(a * c)
+    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
+    M = (E_star * phi / 4) * w_1 * (a - c)
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return where(exists, M, np.nan)
@@ -254,10 +246,7 @@ def moment(a: Values, c: Values, *, E_star: Values, phi: Values) -> Array:
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c]."""
     h = a + c  # contact width [m]
-    left_1 = (a + x) * (2 * c / h)  # zero at the left edge [m]
-    right_1 = (c - x) * (2 * a / h)  # zero at the right edge [m]
-    logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
-    p = (E_star * phi / np.pi) * logarithm_1
+    p = (E_star * phi / np.pi) * kink_logarithm((2 * c / h) * (a + x), (2 * a / h) * (c - x), x)
     exists = (np.minimum(a, c) > LEAST) & (h < MOST) & (x == x)
     return where(exists, p, np.nan)
 
@@ -297,9 +286,10 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, phi: Values) ->
 def _K_N(a: Array, c: Array, E_star: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (2 * E_star * phi / np.pi) / np.sqrt(a * c * h)
-    K_N_left = c * scale
-    K_N_right = a * scale
+    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
+    scale = (2 * E_star * phi / np.pi) * w_1 / np.sqrt(h)
+    K_N_left = scale / a
+    K_N_right = scale / c
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
@@ -339,9 +329,10 @@ def K_N(a: Values, c: Values, *, E_star: Values, phi: Values) -> Edges:
 def _L_N(a: Array, c: Array, E_star: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (E_star * phi / (3 * np.pi)) / np.sqrt(a * c * h)
-    L_N_left = scale * (c / h + 2 * c / a)
-    L_N_right = scale * (a / h + 2 * a / c)
+    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
+    scale = (E_star * phi / (3 * np.pi)) * w_1 / (h * np.sqrt(h))
+    L_N_left = scale * (3 * a + 2 * c) / a**2
+    L_N_right = scale * (2 * a + 3 * c) / c**2
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 

@@ -283,8 +283,8 @@ def _L_N(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Edges:
     tan_1 = root_ratio(a, c)  # tangent of half the angle of x = 0 [-]
     cot_1 = root_ratio(c, a)  # cotangent of half the angle of x = 0 [-]
     t_1 = edge_angle(a, c)  # angle of part 1 [-]
-    k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [m**(-1)]
-    k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [m**(-1)]
+    k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [1/m]
+    k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [1/m]
     L_N_left = (
         (E_star * phi / (6 * np.pi)) * cot_1 * (2 * cot_1**2 + 3) / (h * np.sqrt(h))
         + (E_star / (3 * np.pi)) * (1 / R - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(h)

@@ -1,11 +1,10 @@
-"""Property tests draw the same examples on every machine; no test sees the user's own cache."""
+"""Property tests draw the same examples on every machine."""
 
 import gc
 import os
 import subprocess
 import sys
 from fnmatch import fnmatchcase
-from itertools import count
 from pathlib import Path
 
 import pytest
@@ -13,7 +12,6 @@ from hypothesis import settings
 
 import derive.command.terminal
 import derive.proof.verdict
-from derive.command.cache import VARIABLE
 
 settings.register_profile("ci", derandomize=True, deadline=None)
 settings.load_profile("ci")
@@ -31,8 +29,6 @@ module has read it."""
 
 # SymPy makes millions of small objects that stay: the collector need not look at them so often.
 gc.set_threshold(100_000, 50, 50)
-
-_NUMBERS = count()
 
 LONGEST = ("test_the_committed_package_is_as_generated", "test_a_fresh_run_gives_what_is_committed")
 SHARED = {"installed"}
@@ -97,13 +93,6 @@ def _demand_a_case_of_each_name(items: list[pytest.Item]) -> None:
     for (test, name), found in cases.items():
         if not any(fnmatchcase(case, name) for case in found):
             raise LookupError(f"{test}: enough({name!r}) is none of {', '.join(found):.200}")
-
-
-@pytest.fixture(autouse=True)
-def empty_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A cache of its own for every test, and for the processes that it starts."""
-    folder = tmp_path_factory.getbasetemp() / "caches" / str(next(_NUMBERS))
-    monkeypatch.setenv(VARIABLE, str(folder))
 
 
 @pytest.fixture(autouse=True)

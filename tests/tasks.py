@@ -9,12 +9,8 @@ from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from derive.command.cache import Cache
 from derive.command.errors import BadUnit, NotProven, UnknownGeometry
 from derive.command.processes import Report
-from derive.sheet.built import BuiltBody
-
-KEY = "0" * 64
 
 
 def process(item: object, report: Report) -> int:
@@ -78,13 +74,3 @@ def fails(item: str, report: Report) -> str:
         with TemporaryDirectory():
             time.sleep(600)
     return item
-
-
-def write_often(item: tuple[str, BuiltBody], report: Report) -> int:
-    """Keep a body many times under one key; how often what was then there was whole."""
-    folder, body = item
-    cache, whole = Cache(Path(folder)), 0
-    for _ in range(200):
-        cache.put(KEY, body)
-        whole += cache.get(KEY) is not None
-    return whole

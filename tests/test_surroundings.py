@@ -7,12 +7,7 @@ from subprocess import CompletedProcess
 
 import pytest
 
-from derive.body.library import FOLDER
-from derive.command.cache import key_of, program_as_loaded, users_cache
-from derive.pipeline import GENERATED
-from derive.proof.verdict import Verdict
-from derive.sheet.built import BuiltBody
-from tests.commands import MODULE, real
+from tests.commands import MODULE, ROOT, real
 
 pytestmark = [
     pytest.mark.slow,
@@ -20,19 +15,8 @@ pytestmark = [
 ]
 
 
-TABLE, LINES = "generate hertz --out made", "new nn 'x**2/(2*R)'"
+TABLE, LINES = f"check {ROOT}/examples/cattaneo_mindlin.toml", "new nn 'x**2/(2*R)'"
 """Commands by what they print; the second one starts another process."""
-
-
-@pytest.fixture
-def hertz_is_kept() -> None:
-    """The cylinder in the cache of the test, as if it had been built before."""
-    origin, verdicts = "derive/geometries/hertz.py", (("tilt", Verdict.PROVEN),)
-    key = key_of(FOLDER / "hertz.py", origin, program_as_loaded())
-    texts = ((GENERATED / f"{name}.py").read_text("utf-8") for name in ("hertz", "full_stick"))
-    proofs = (("tilt", "proven: a stand-in for a proof"),)
-    assert key is not None
-    users_cache().put(key, BuiltBody("hertz", *texts, 0.5, ("forward",), (), verdicts, proofs))
 
 
 def derive(folder: Path, command: str, before: str = "") -> CompletedProcess[str]:
@@ -49,7 +33,6 @@ def demand_one_line(done: CompletedProcess[str], part: str) -> None:
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device")
 @pytest.mark.parametrize("command", [TABLE, LINES, "--help", "--version", "show --help"])
-@pytest.mark.usefixtures("hertz_is_kept")
 def test_a_full_output(tmp_path: Path, command: str) -> None:
     part = "standard output cannot be written: No space left"
     demand_one_line(derive(tmp_path, f"{command} > /dev/full"), part)
@@ -60,11 +43,9 @@ def test_a_closed_output(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("command", [TABLE, LINES])
-@pytest.mark.usefixtures("hertz_is_kept")
 def test_a_closed_or_full_standard_error_changes_nothing(tmp_path: Path, command: str) -> None:
     plain, *others = (
-        derive(tmp_path, f"{command} {end}", "rm -fr nn.py made;")
-        for end in ("", "2>&-", "2>/dev/full")
+        derive(tmp_path, f"{command} {end}", "rm -f nn.py;") for end in ("", "2>&-", "2>/dev/full")
     )
     assert plain.stdout
     for done in (plain, *others):
@@ -72,7 +53,6 @@ def test_a_closed_or_full_standard_error_changes_nothing(tmp_path: Path, command
 
 
 @pytest.mark.parametrize("command", [TABLE, "--help", "show --help"])
-@pytest.mark.usefixtures("hertz_is_kept")
 def test_a_reader_that_has_seen_enough(tmp_path: Path, command: str) -> None:
     """The status is the one of a program that SIGPIPE ends: 128 + 13."""
     done = derive(tmp_path, f"{command}; echo $? >&2; }} | true", "{")

@@ -63,7 +63,7 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def run(installed: Path, folder: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
     """Python in a folder of the user's, with the installed package; nothing is compiled."""
-    paths = {"PYTHONPATH": str(installed / "site"), "DERIVE_CACHE": ""}
+    paths = {"PYTHONPATH": str(installed / "site")}
     settings = os.environ | paths | {"NUMBA_DISABLE_JIT": "1", "MPLBACKEND": "Agg"}
     command = [sys.executable, *arguments]
     return subprocess.run(command, cwd=folder, env=settings, capture_output=True, text=True)

@@ -2,8 +2,7 @@
 
 plan      chooses how each function is evaluated: formula, sum over parts, quadrature or solver
 program   the steps and outputs of a function, before they are printed as text
-rewrite   rules that avoid loss of digits in floating point; results are compared with the source
-angles    those of these rules that concern angles
+rewrite   rules for closed formulas in floating point; results are compared with the source
 parts     functions of kinked polynomial bodies as sums over the parts of a contact
 printer   SymPy -> NumPy source
 contract  the functions that every module has

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import mpmath
-from sympy import And, Gt, Lt, Min, Or, Piecewise, S, Symbol
+from sympy import And, Gt, Lt, Min, Or, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
@@ -141,15 +141,11 @@ class FunctionText:
     def _further_checks(self) -> Iterator[str]:
         """Checks of arguments whose NaN would not reach the result.
 
-        At a corner `fmax` replaces 0/0 by zero, and so a NaN in x, too.  A formula with pieces does
-        not use the parameters of the others.
+        At a corner `fmax` replaces 0/0 by zero, and so a NaN in x, too.
         """
         corners = (k for k in self.sheet.frame.kinks if k.kink.is_corner)
         if self.function.name == "pressure" and any(corners):
             yield "x == x"
-        own = [str(q.symbol) for q in self.sheet.geometry.parameters]
-        if len(own) > 1 and any(expr.has(Piecewise) for expr in self.program.exprs):
-            yield f"{' * '.join(own)} > 0"
 
     # ------------------------------------------------------------------ docstring
 

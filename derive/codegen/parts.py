@@ -12,6 +12,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
+from sympy import Piecewise
+
 from derive.codegen.contract import CONTRACT
 from derive.codegen.function import FunctionText, checks_of, printer_of, step_lines
 from derive.codegen.printer import NumPyPrinter
@@ -92,6 +94,14 @@ class SummedText(FunctionText):
             yield from super()._existing()
         elif checks := [*self._further_checks]:
             yield f"    exists = exists & ({' & '.join(checks)})"
+
+    @property
+    def _further_checks(self) -> Iterator[str]:
+        """The parameters of all pieces, because a formula with pieces uses those of one."""
+        yield from super()._further_checks
+        own = [str(q.symbol) for q in self.sheet.geometry.parameters]
+        if len(own) > 1 and any(expr.has(Piecewise) for expr in self.program.exprs):
+            yield f"{' * '.join(own)} > 0"
 
     @property
     def _equations(self) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 The printer also makes three changes:
 
-* Half powers in a product are collected under one root, except those in an UnevaluatedExpr.
+* Half powers in a product are collected under one root.
 * Factors that do not vary along the array are multiplied first, so that the array is traversed
   only once.
 * A number that SymPy keeps exact is rounded once, as a whole.
@@ -29,12 +29,11 @@ from sympy import (
     Rational,
     S,
     Symbol,
-    UnevaluatedExpr,
     oo,
 )
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanFalse, BooleanTrue
-from sympy.printing.precedence import PRECEDENCE, precedence_traditional
+from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 from derive.theory.segments import FUNCTIONS as NAMED
@@ -55,7 +54,7 @@ _FUNCTIONS |= {function.__name__: function.__name__ for function in NAMED}
 _NAMED = ("Max", "Min", "Piecewise")
 _CONSTANTS = {S.Pi: "np.pi", S.Exp1: "np.e", S.EulerGamma: "np.euler_gamma"}
 
-_NOT_EXACT = (Float, UnevaluatedExpr, S.ImaginaryUnit, S.NaN, oo, -oo, S.ComplexInfinity)
+_NOT_EXACT = (Float, S.ImaginaryUnit, S.NaN, oo, -oo, S.ComplexInfinity)
 
 _LARGEST_WHOLE = 2**53
 
@@ -64,7 +63,7 @@ _DIGITS = 40
 
 
 _KNOWN = (
-    *(Add, Mul, Pow, Symbol, Rational, NumberSymbol, UnevaluatedExpr),
+    *(Add, Mul, Pow, Symbol, Rational, NumberSymbol),
     *(Function, Max, Min, Piecewise, Relational, And, Or, BooleanTrue, BooleanFalse),
 )
 
@@ -89,10 +88,6 @@ class NumPyPrinter(StrPrinter):
 
     def parenthesize(self, item: Basic, level: int, strict: bool = False) -> str:
         """Parenthesize as SymPy does, except that a root is a call and needs no parentheses."""
-        if isinstance(item, UnevaluatedExpr):
-            inner = self._print(item)
-            bare = _is_call(inner) or precedence_traditional(item.args[0]) > level
-            return inner if bare else f"({inner})"
         if _is_rounded(item):
             inner = self._print(item)
             return inner if level <= PRECEDENCE["Add"] or inner[0] != "-" else f"({inner})"
@@ -148,9 +143,6 @@ class NumPyPrinter(StrPrinter):
             return _product(self._print(base), int(exponent))
         below, above = (self.parenthesize(part, PRECEDENCE["Pow"]) for part in (base, exponent))
         return f"{below}**{above}"
-
-    def _print_UnevaluatedExpr(self, expr: Expr) -> str:
-        return self._print(expr.args[0])
 
     def _print_Integer(self, expr: Basic) -> str:
         """Print whole numbers of magnitude 2**53 or more as float64."""

@@ -3,23 +3,9 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from sympy import Expr, Symbol, UnevaluatedExpr
+from sympy import Expr, Symbol
 
 from derive.theory.segments import written_out
-
-
-class Kept(UnevaluatedExpr):
-    """An expression that SymPy neither expands nor reorders.
-
-    It is known to be real or positive if the expression inside is.
-    """
-
-    def _eval_is_extended_real(self) -> bool | None:
-        return self.args[0].is_extended_real
-
-    def _eval_is_extended_positive(self) -> bool | None:
-        return self.args[0].is_extended_positive
-
 
 LEAST, MOST = Symbol("LEAST", positive=True), Symbol("MOST", positive=True)
 """The shortest and the longest length whose products stay well inside float64."""

@@ -1,14 +1,14 @@
-r"""Rewrites formulas into forms that do not lose digits in floating point.
+"""Rewrites closed formulas for floating point.
 
 In:  the outputs of one function, in the symbols of the sheet.
-Out: a Program in stable forms, which is compared with its source to 30 digits before it is used.
+Out: a Program, which is compared with its source to 30 digits before it is used.
 
 Each rule is one function, whose docstring states the identity that it uses.  No rule depends on a
 particular geometry.
 """
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import mpmath
 from sympy import (
@@ -17,74 +17,58 @@ from sympy import (
     Dummy,
     Expr,
     Max,
-    Min,
     Mul,
+    Piecewise,
     Pow,
     S,
     Symbol,
-    atan,
-    count_ops,
+    atan2,
     expand,
     factor,
     fraction,
-    powsimp,
-    sign,
+    pi,
+    simplify,
     sqrt,
+    tan,
+    together,
 )
 
-from derive.codegen.angles import (
-    angles_about_the_right_angle,
-    far,
-    near,
-    on_side,
-    shares_of_the_half_circle,
-    tangents_from_both_ends,
-)
-from derive.codegen.program import Kept, Program, Step
+from derive.body.piece import vanishes
+from derive.codegen.program import Program, Step
 from derive.proof.points import Point, named, numeric, numeric_by_steps
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet.formulas import FormulaSheet
-from derive.symbols import M, P, a, c, e, h, w, x
+from derive.symbols import M, P, a, alpha, c, e, h, w, x
+from derive.theory.frame import Frame
 from derive.theory.segments import kink_logarithm
 
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
-_half, _base, _root, _scale, _longer = (
-    Dummy(name, positive=True) for name in ("half", "base", "root", "scale", "longer")
+_root, _scale, _base, _reach = (
+    Dummy(name, positive=True) for name in ("root", "scale", "base", "reach")
 )
-_reach, _quotient = (Dummy(name, nonnegative=True) for name in ("reach", "quotient"))
-_lean = Dummy("lean", real=True)
+_tangent = Dummy("tangent", real=True)
 
 
-def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point) -> Program:
-    """The outputs in stable forms.
-
-    `example` is any point that meets their assumptions.  A rule that needs the sign of an argument
-    evaluates the argument at this point.
-    """
+def stable_program(sheet: FormulaSheet, outputs: Mapping[str, Expr], example: Point) -> Program:
+    """The outputs in stable forms; `example` is any point that meets their assumptions."""
+    frame = sheet.frame
     steps: list[Step] = []
-    for k in sheet.frame.kinks:
+    for k in frame.kinks:
         at = f"the kink x = {k.kink.position}"
         steps.append(Step(k.theta, k.angle, f"angle of the contact beyond {at}"))
         steps.append(Step(k.w, k.root, f"root at {at}"))
-    program = Program(outputs, tuple(steps))
-    program = angles_about_the_right_angle(program, sheet)
-    program = shares_of_the_half_circle(program, sheet)
-    program = logarithms_to_log1p(program, sheet)
-    program = conjugate_roots(program)
-    program = roots_under_the_edges(program)
-    program = program.with_steps(
+    program = Program(outputs, tuple(steps)).with_outputs(
+        lambda expr: logarithms_to_log1p(angles_about_the_right_angle(expr, frame), frame)
+    )
+    program = roots_under_the_edges(sums_without_difference(program)).with_steps(
         Step(e, M / P, "lever arm of the load"), Step(_h, h, "contact width")
     )
-    program = lengths_of_one_sign(program, sheet)
-    program = sums_term_by_term(program)
-    program = half_width_once(program)
-    program = tangents_from_both_ends(program, example)
-    program = common_factor_once(program)
+    program = common_factor_once(tangents_from_both_ends(program, example))
     return program.renamed(q.name for q in sheet.geometry.parameters).ordered()
 
 
-def prove_equal(program: Program, source: dict[str, Expr], points: Iterable[Point]) -> Proof:
+def prove_equal(program: Program, source: Mapping[str, Expr], points: Iterable[Point]) -> Proof:
     """Compare the program numerically with the formulas that it was made from."""
     plain = program.in_mathematics()
     steps = [(step.symbol, step.expr) for step in plain.steps]
@@ -100,143 +84,87 @@ def prove_equal(program: Program, source: dict[str, Expr], points: Iterable[Poin
         )
 
 
-# ------------------------------------------------------------------ logarithms and roots
+# ------------------------------------------------------------------ kinks
 
 
-def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
+def angles_about_the_right_angle(expr: Expr, frame: Frame) -> Expr:
+    """Apply two identities, with theta_j = 2 atan2(sqrt u, sqrt v) and u v = w_j**2.
+
+        q (pi/2 - theta_j)     -> q atan2(v - u, 2 w_j)
+        q (pi/2 - atan2(y, x)) -> q atan2(x, y) for y > 0
+
+    A tilt near zero is a small difference of angles near pi/2.  The difference of u and v, in
+    contrast, is exact.
+    """
+    complements = {angle: atan2(*reversed(angle.args)) for angle in expr.atoms(atan2)}
+    for k in frame.kinks:
+        complements[k.theta] = atan2(k.kink.side * simplify(k.left - k.right), 2 * k.w)
+    for angle, complement in complements.items():
+        times = expand(expr).coeff(angle)
+        if times != 0 and vanishes(expr.xreplace({angle: pi / 2})):
+            expr = simplify(-times) * complement
+    return expr
+
+
+def logarithms_to_log1p(expr: Expr, frame: Frame) -> Expr:
     """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> (1/2) log1p(z),
     z = 2 (min(u, v) + sqrt(u v))/|u - v|.
 
     u - v = h (x - x_j) is a product of exact differences; u and v are divided by h.  At an edge, z
     is exactly zero, and so is the logarithm.  Outside the contact, u v has no real root, and z is
     set to zero.
-
-    This serves formulas that are printed unchanged.  Their only kink is a corner that every contact
-    spans.
     """
-    words = "twice the logarithm of the kink"
-    for k in sheet.frame.kinks:
-        number, place = k.kink.number, k.kink.position
-        left, right = (Dummy(f"{side}_{number}", real=True) for side in ("left", "right"))
-        twice = Dummy(f"logarithm_{number}", nonnegative=True)
-        steps = (
-            Step(left, Kept(2 * k.right / h) * (a + x), "zero at the left edge"),
-            Step(right, Kept(2 * k.left / h) * (c - x), "zero at the right edge"),
-            Step(twice, kink_logarithm(left, right, x - place), f"{words} x = {place}"),
-        )
-        program = program.mapped(lambda expr, L=k.L, to=twice / 2: expr.xreplace({L: to}))  # type: ignore[misc]
-        program = replace(program, steps=(*program.steps, *steps))
-    return program
-
-
-def conjugate_roots(program: Program) -> Program:
-    """r + A and r - A of one root r = sqrt(A**2 + B**2), the smaller from their product B**2.
-
-    far = r + |A| and near = B**2/far.  The root is the larger of B and |A| times sqrt(1 + q**2),
-    where q is the quotient of the smaller and the larger.  It does not overflow and loses no digits
-    when one of the two is much larger than the other.
-    """
-    pairs = {name: _conjugate(expr) for name, expr in program.outputs.items()}
-    legs = {(pair.leg, pair.other) for pair in pairs.values() if pair}
-    if len(legs) != 1:
-        return program
-    ((leg, other),) = legs
-    steps = [
-        Step(_base, other, "half-width without the moment"),
-        Step(_lean, leg, ""),
-        Step(_reach, Abs(_lean), "distance by which the moment shifts the contact"),
-        Step(_longer, Max(_base, _reach), ""),
-        Step(_quotient, Min(_base, _reach) / _longer, ""),
-        Step(_root, _longer * sqrt(1 + _quotient**2), ""),
-        Step(far, _reach + _root, "the farther edge"),
-        Step(near, _base * Kept(_over(far, other)), "the nearer edge"),
-    ]
-    outputs = {
-        name: pair.rest + on_side(pair.sign * _lean, steps) if (pair := pairs[name]) else expr
-        for name, expr in program.outputs.items()
-    }
-    program = replace(program, outputs=outputs).mapped(
-        lambda expr: _quotients_to(other, expr).subs(leg, _lean)
-    )
-    return replace(program, steps=(*program.steps, *steps))
-
-
-def _quotients_to(other: Expr, expr: Expr) -> Expr:
-    """atan(y/B), with B replaced by its step."""
-    return expr.replace(
-        lambda n: isinstance(n, atan) and (n.args[0] * other).count_ops() < n.args[0].count_ops(),
-        lambda n: atan(n.args[0] * other / _base),
+    return expr.xreplace(
+        {
+            k.L: kink_logarithm(2 * k.u / h, 2 * k.v / h, x - k.kink.position) / 2
+            for k in frame.kinks
+        }
     )
 
 
-@dataclass(frozen=True)
-class _Conjugate:
-    """rest + sign A + sqrt(A**2 + B**2), with A = leg of either sign and B = other > 0."""
-
-    leg: Expr
-    other: Expr
-    sign: int
-    rest: Expr
+# ------------------------------------------------------------------ sums and tangents
 
 
-def _conjugate(expr: Expr) -> _Conjugate | None:
-    for root in (t for t in Add.make_args(expr) if isinstance(t, Pow) and t.exp == S.Half):
-        legs = [sqrt(term) for term in Add.make_args(root.base)]
-        if len(legs) != 2:
-            continue
-        for leg, other in (legs, legs[::-1]):
-            signed = leg.replace(Abs, lambda inner: inner)
-            for sense in (1, -1):
-                rest = expr - root - sense * signed
-                if other.is_positive and count_ops(rest) < count_ops(expr - root):
-                    return _Conjugate(signed, other, sense, rest)
-    return None
+def sums_without_difference(program: Program) -> Program:
+    """A + sqrt(A**2 + B**2) -> B**2/(sqrt(A**2 + B**2) - A) where A < 0, for one B > 0."""
+    steps: tuple[Step, ...] = ()
+
+    def change(expr: Expr) -> Expr:
+        nonlocal steps
+        for root in (t for t in Add.make_args(expr) if t.is_Pow and t.exp == S.Half):
+            leg = expr - root
+            other = sqrt(factor(root.base - expand(leg**2)))
+            if other.is_positive:
+                steps = (
+                    Step(_base, other, "half-width without the moment"),
+                    Step(_reach, sqrt(leg**2 + _base**2), "half-width with the moment"),
+                )
+                return Piecewise((leg + _reach, leg > 0), (_base**2 / (_reach - leg), True))
+        return expr
+
+    return program.with_outputs(change).with_steps(*steps)
 
 
-def _over(divisor: Expr, quotient: Expr) -> Expr:
-    """(p/q)/divisor as p/(divisor q), without the rounding error of p/q."""
-    above, below = fraction(quotient)
-    for f in Mul.make_args(below):
-        divisor = Kept(divisor * f)
-    return above / divisor
+def tangents_from_both_ends(program: Program, example: Point) -> Program:
+    """tan z -> -1/tan(z - pi/2) where z > pi/4, and the same for -z.
 
-
-def lengths_of_one_sign(program: Program, sheet: FormulaSheet) -> Program:
-    """sqrt(a c)/a -> sqrt(c/a) or c/sqrt(a c), where all contacts have a > 0 and c > 0."""
-    conditions = set(sheet["load"].conditions)
-    known = {s: Symbol(str(s), positive=True) for s in (a, c) if (s > 0) in conditions}
-    if len(known) < 2 or any(x in expr.free_symbols for expr in program.ordered().exprs):
+    Next to pi/2, the angle z - pi/2 is an exact small difference, but z is not.  Tangents of
+    parameters alone are not changed.
+    """
+    of_tilt = {t for v in program.outputs.values() for t in v.atoms(tan) if t.has(alpha)}
+    if len(of_tilt) != 1:
         return program
-    if len(program.outputs) > 1:  # w_j/(a + x_j) = (c - x_j)/w_j: all outputs share one root
-        over = {k.w: k.left * k.right / k.w for k in sheet.frame.kinks}
-        roots = {k.w: k.root for k in sheet.frame.kinks}
-        return program.mapped(
-            lambda expr: factor(expr.xreplace(over)).xreplace(roots) if expr.has(*over) else expr
-        )
-    opened = {k.w: k.root.subs(known) for k in sheet.frame.kinks}
-    outputs = {
-        name: powsimp(v.xreplace(opened | known)).xreplace({new: old for old, new in known.items()})
-        for name, v in program.outputs.items()
-    }
-    return replace(program, outputs=outputs)
+    (tangent,) = of_tilt
+    (angle,) = tangent.args
+    right = pi / 2 if numeric(angle)(example) > 0 else -pi / 2
+    rest = factor(together(angle - right))
+    both = Piecewise((tangent, Abs(angle) < pi / 4), (-1 / tan(rest), True))
+    program = program.with_outputs(lambda expr: expr.xreplace({tangent: _tangent}))
+    step = Step(_tangent, both, "from the nearer of 0 and a right angle")
+    return replace(program, steps=(*program.steps, step))
 
 
-def sums_term_by_term(program: Program) -> Program:
-    """c (p a + q c)/(a h) -> p' c/a + q' c/h if all terms are positive and the sum is shorter."""
-    return program.with_outputs(_term_by_term)
-
-
-def _term_by_term(product: Expr) -> Expr:
-    sums = (f for f in Mul.make_args(product) if isinstance(f, Add))
-    for total in (f for f in sums if f.free_symbols <= {a, c}):
-        powers = (product / total).as_powers_dict()
-        edges = Mul(*(s ** sign(powers[s]) for s in (a, c, _h) if abs(powers[s]) >= 1))
-        for edge, other in ((a, c), (c, a)):
-            terms = expand(total.subs(edge, _h - other) * edges)
-            positive = all(not t.could_extract_minus_sign() for t in Add.make_args(terms))
-            if positive and count_ops(terms) < count_ops(total * edges):
-                return product / (total * edges) * terms
-    return product
+# ------------------------------------------------------------------ roots and factors
 
 
 def roots_under_the_edges(program: Program) -> Program:
@@ -245,25 +173,6 @@ def roots_under_the_edges(program: Program) -> Program:
         return program
     program = program.mapped(lambda expr: expr.subs(w, _w))
     return program.with_steps(Step(_w, sqrt(Max(0, (a + x) * (c - x))), "root at x"))
-
-
-# ------------------------------------------------------------------ terms shared by the outputs
-
-
-def half_width_once(program: Program) -> Program:
-    """a = half - mid and c = half + mid: compute the common term, half the width, once."""
-    if not {"a", "c"} <= program.outputs.keys():
-        return program
-    left, right = ({*Add.make_args(program.outputs[edge])} for edge in ("a", "c"))
-    half = Add(*(left & right))
-    if half == 0 or not half.atoms(Pow):
-        return program
-    return replace(
-        program,
-        outputs=dict(program.outputs)
-        | {"a": _half + Add(*(left - right)), "c": _half + Add(*(right - left))},
-        steps=(*program.steps, Step(_half, half, "half the contact width")),
-    )
 
 
 def common_factor_once(program: Program) -> Program:

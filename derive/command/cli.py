@@ -5,7 +5,9 @@ SymPy is imported only by the commands that need it, so that help appears at onc
 
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import AbstractContextManager
+from functools import partial
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -117,13 +119,15 @@ def _show_page(name: str, out: Path | None, limit: float) -> None:
     """Write the page of one body."""
     import derive.handbook  # noqa: F401 - reports a missing library at once
     from derive.command.files import demand_page, put_page
-    from derive.command.showing import in_limited_process, page_of
-    from derive.pipeline import stated_name
+    from derive.command.showing import page_of
+    from derive.pipeline import each_in_process, stated_name
 
     demand_page(out or Path(f"{stated_name(name)}.html"))
-    (body,) = _built((name,), None, False, limit)
+    with _progress(1) as step:
+        ((body, page, _),) = each_in_process(page_of, [name], step, 1, limit)
+    _remark_on([body])
     path = out or Path(f"{body.name}.html")
-    put_page(in_limited_process(page_of, name, body, limit), path)
+    put_page(page, path)
     output(f"Wrote {path_of(path.resolve())}")
 
 
@@ -132,12 +136,19 @@ def _show_pages(out: Path | None, limit: float) -> None:
     import derive.handbook  # noqa: F401 - reports a missing library at once
     from derive.body.library import library
     from derive.command.folder import demand_pages, put_pages
-    from derive.command.showing import handbook
+    from derive.command.processes import cores
+    from derive.command.showing import page_of
+    from derive.handbook.page import index_of
+    from derive.pipeline import each_in_process
 
-    folder = out or Path("handbook")
+    folder, page_of_set = out or Path("handbook"), partial(page_of, index=True)
     demand_pages(folder)
-    bodies = _built(library(), None, False, limit)
-    put_pages(handbook(bodies, limit), folder)
+    with _progress(len(library())) as step:
+        made = each_in_process(page_of_set, library(), step, cores(), limit)
+    bodies, _, entries = zip(*made, strict=True)
+    _remark_on(bodies)
+    pages = {f"{body.name}.html": page for body, page, _ in made}
+    put_pages(pages | {"index.html": index_of(entries)}, folder)
     index = path_of((folder / "index.html").resolve())
     output(f"Wrote {index} and the pages of {len(bodies)} bodies")
 
@@ -190,7 +201,7 @@ def new(
 @click.argument("sources", nargs=-1, metavar="[NAME|FILE]...")
 @click.option("--out", type=PATH, help="Write an importable package here.")
 @click.option("--check", is_flag=True, help="Write nothing; fail if anything would change.")
-@click.option("--fresh", is_flag=True, help="Derive everything again; --check always does this.")
+@click.option("--fresh", is_flag=True, hidden=True, expose_value=False)  # as it always is now
 @click.option(
     "--jobs",
     type=click.IntRange(min=1),
@@ -202,7 +213,6 @@ def generate(
     sources: tuple[str, ...],
     out: Path | None,
     check: bool,
-    fresh: bool,
     jobs: int | None,
     limit: float,
 ) -> None:
@@ -210,17 +220,16 @@ def generate(
 
     Without arguments, modules are written for the whole library; otherwise, only for the geometries
     named.  A package that --out names is replaced as a whole.
-
-    A body is taken from an earlier run if neither its geometry file nor the program has changed.
-    Such bodies are kept in the directory that the environment variable DERIVE_CACHE names, or else
-    in the user's cache; if DERIVE_CACHE is empty, nothing is kept.
     """
     from derive.codegen.publish import resolved
     from derive.command import view
-    from derive.pipeline import Order
+    from derive.command.processes import cores
+    from derive.pipeline import Order, build_all
 
     order = Order(sources, resolved(out) if out else None, writes=not check)
-    bodies = _built(order.names, jobs, fresh or check, limit)
+    with _progress(len(order.names)) as step:
+        bodies = build_all(order.names, step, jobs or cores(), limit)
+    _remark_on(bodies)
     if check:
         _report_drift(order, bodies)
         return
@@ -393,19 +402,18 @@ def edge(
             click.echo(f"Wrote {path_of(path.absolute())}")
 
 
-def _built(
-    sources: Sequence[str], jobs: int | None, fresh: bool, limit: float
-) -> "list[BuiltBody]":
-    """Build every body under a progress bar, and report the searches that reached their limit."""
-    from derive.command.processes import cores
-    from derive.pipeline import STAGES, build_all
+def _progress(bodies: int) -> AbstractContextManager[Callable[[str, str], None]]:
+    """A progress bar for the stages of bodies."""
+    from derive.pipeline import STAGES
 
-    with progress(len(sources), STAGES) as step:
-        bodies = build_all(sources, step, jobs or cores(), fresh, limit)
+    return progress(bodies, STAGES)
+
+
+def _remark_on(bodies: "Iterable[BuiltBody]") -> None:
+    """Report the searches that reached their limit."""
     for body in bodies:
         if body.time_limit_note:
             remark(f"{body.name}: {body.time_limit_note}")
-    return bodies
 
 
 def _report_drift(order: "Order", bodies: "Sequence[BuiltBody]") -> None:

@@ -1,16 +1,17 @@
 """A new geometry from g(x) given as text; all mistakes are reported before its file is written."""
 
+import ast
 import re
 import sys
 from collections.abc import Mapping, Sequence
 
-from sympy import Abs
+from sympy import Abs, Rational
+from sympy.printing.str import StrPrinter
 
 from derive.body.geometry import Geometry, parameter, without_x
 from derive.body.library import is_in_library
 from derive.codegen.module import formatted
 from derive.command.errors import BadName, BadProfile, BadUnit, UserError
-from derive.command.python_of import code_of
 from derive.command.wanted import Wanted, bad_option
 from derive.reading.profile import parameters, read, tree_of, value
 from derive.reading.tree import Tree
@@ -66,7 +67,8 @@ def new_geometry(wanted: Wanted) -> tuple[Geometry, str]:
         why = f"has {count} parameters, and at most {_MOST_PARAMETERS} are allowed"
         raise BadProfile(wanted.name, why, "replace some of them by numbers")
     described = _described(wanted, tree)
-    return _geometry(wanted, tree, described), _text(wanted, tree, described)
+    geometry = _geometry(wanted, tree, described)
+    return geometry, _text(wanted, geometry, described)
 
 
 def _demand_name(name: str) -> None:
@@ -118,12 +120,21 @@ def _too_large(name: str, why: str) -> BadProfile:
     return BadProfile(name, why, remedy)
 
 
-def _text(wanted: Wanted, tree: Tree, described: _Described) -> str:
+class _Exact(StrPrinter):
+    """Prints an expression as Python code, in which a quotient of integers is exact."""
+
+    def _print_Rational(self, expr: Rational) -> str:
+        return f"Rational({expr.p}, {expr.q})"
+
+
+def _text(wanted: Wanted, geometry: Geometry, described: _Described) -> str:
     """The text of the file, in the form of the files of the library."""
     try:
-        profile, imported = code_of(tree)
+        profile = _Exact().doprint(geometry.g)
     except RecursionError as error:
         raise _too_large(wanted.name, "has too many terms") from error
+    names = {node.id for node in ast.walk(ast.parse(profile)) if isinstance(node, ast.Name)}
+    imported = names - {"x", *described}
     imports = ", ".join(sorted(imported, key=lambda name: (name.islower(), name)))
     lines = [
         _docstring(wanted.title.strip() or _title(wanted)),

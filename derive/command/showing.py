@@ -1,6 +1,6 @@
 """What `derive show` prints, and the pages it writes.
 
-In:  the name of a geometry of the library, or a geometry file; a body that has been built.
+In:  the name of a geometry of the library, or a geometry file.
 Out: texts, sheets for the terminal, pages.
 
 Work that may take a long time or that runs a user's file is done in a separate process with limits
@@ -8,7 +8,7 @@ on time and memory.
 """
 
 from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 from rich.console import RenderableType
@@ -25,6 +25,9 @@ from derive.sheet.built import BuiltBody
 from derive.sheet.derivation import NONE_IN_TIME, slip_series, with_closed_forms
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
+
+if TYPE_CHECKING:
+    from derive.handbook.page import Entry
 
 Shown = TypeVar("Shown")
 
@@ -80,36 +83,17 @@ def sheet_of(asked: tuple[str, str, float], report: Report) -> tuple[RenderableT
     return view.formulas(sheet), remark
 
 
-def page_of(asked: tuple[str, BuiltBody, float], report: Report) -> str:
-    """The page of a body that has been built."""
-    from derive.handbook.page import page
+def page_of(
+    asked: tuple[str, float], report: Report, index: bool = False
+) -> "tuple[BuiltBody, str, Entry]":
+    """A body, its page, and its entry in an index, to which the page may link."""
+    from derive.handbook.page import entry, page
 
-    name, body, limit = asked
-    return page(_sheet_of_body(name, body, limit, report), body)
-
-
-def handbook(bodies: Sequence[BuiltBody], limit: float) -> dict[str, str]:
-    """The pages of the library with their index, by file name."""
-    from derive.handbook.page import entry, index, page
-
-    made = [*zip(sheets_of(bodies, limit), bodies, strict=True)]
-    pages = {f"{body.name}.html": page(sheet, body, index=True) for sheet, body in made}
-    return pages | {"index.html": index([entry(sheet, body) for sheet, body in made])}
-
-
-def sheets_of(bodies: Sequence[BuiltBody], limit: float) -> list[FormulaSheet]:
-    """The sheets of bodies of the library, with those formulas for which the bodies have proofs."""
-    with status("deriving") as update:
-        return [
-            _sheet_of_body(body.name, body, limit, lambda *told: update(": ".join(told)))
-            for body in bodies
-        ]
-
-
-def _sheet_of_body(name: str, body: BuiltBody, limit: float, report: Report) -> FormulaSheet:
-    from derive.handbook.page import proven
-
-    return proven(with_closed_forms(_derived(name, report), limit), body)
+    name, limit = asked
+    sheet, body = pipeline.sheet_and_body(name, report, limit)
+    made = body, page(sheet, body, index), entry(sheet, body)
+    report(name, pipeline.DONE)
+    return made
 
 
 def slip_of(asked: tuple[str, int], report: Report) -> str:

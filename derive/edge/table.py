@@ -1,14 +1,14 @@
 """Read tables as exported by finite-element programs: separators, headers, units and load steps.
 
-A table has a line of column names above its numbers.  It must have the position along the
-interface and the pressure.  It may also have the load step, and the shear traction of a run in
-which nothing slips.  Several columns of pressure are several load steps.  Other columns are
-ignored.  Units follow the names, with or without brackets, or are in a separate line.
+A table has a line of column names above its numbers, which also says how columns are separated.  It
+must have the position along the interface and the pressure.  It may also have the load step, and
+the shear traction of a run in which nothing slips.  Several columns of pressure are several load
+steps.  Other columns are ignored.  Units follow the names, with or without brackets.
 """
 
 import csv
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -53,13 +53,10 @@ NAMES = {
 
 MEANT = {"x": "the position along the interface", "p": "the contact pressure"}
 
-_DIALECTS = (
-    *((";", False), (";", True), ("\t", False), ("\t", True), (",", False)),
-    *((" ", False), (" ", True)),
-)
-"""Separators, and whether numbers have decimal commas."""
+_SEPARATORS = (";", "\t", ",", " ")
+"""Separators of columns; with all but the comma, numbers may have decimal commas."""
 
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?nan|[+-]?inf(inity)?", re.I)
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?")
 _COMMENT = re.compile(r"(#|!|%|//|\*\*)")
 _UNIT = re.compile(r"[\[(]\s*([^\])]*?)\s*[\])]")
 _BEHIND = re.compile(r"(.+?)\s*[_/ ]\s*(\S+)")
@@ -71,6 +68,7 @@ _COUNTED = re.compile(r"(?:(?<=^p)|(?<=^q)|(?<=^dq)|(?<=pressure)|(?<=cpress)| (
 _SCALES = {"x": LENGTHS, "p": STRESSES, "q": STRESSES}
 
 Fields = tuple[str, ...]
+Lines = list[tuple[int, str]]
 
 
 @dataclass(frozen=True)
@@ -100,22 +98,23 @@ def read(path: Path, units: Mapping[str, str] | None = None) -> tuple[Step, ...]
 
 
 class _Table:
-    """The rows of numbers of a file, each with its line number, and the names of its columns."""
+    """The rows of a file, each with its line number, and the names of its columns."""
 
     def __init__(self, path: Path) -> None:
         self.shown = path.name
-        rows = self._split(self._text(path))
-        first = next(i for i, (_, fields) in enumerate(rows) if sum(map(_is_number, fields)) > 1)
-        head = [fields for _, fields in rows[:first]]
-        self.rows = [row for row in rows[first:] if row[1] not in head]  # drop repeated headers
-        width = len(self.rows[0][1])
+        head, self.separator, rest = self._head(self._lines(path))
+        self.names, self.units = zip(*map(_split_unit, head), strict=True)
+        rows = [(number, _fields(line, self.separator)) for number, line in rest]
+        self.rows = [row for row in rows if row[1] != head]  # drop repeated headers
         for number, fields in self.rows:
-            if len(fields) != width:
+            if len(fields) != len(head):
                 raise self._bad(
-                    f"line {number} has {len(fields)} instead of {width} fields",
-                    "give every line the same number of columns",
+                    f"line {number} has {len(fields)} instead of {len(head)} fields",
+                    "give each column a name, and separate columns by ; if numbers have decimal "
+                    "commas",
                 )
-        self.names, self.units = self._header(head, width)
+        if not self.rows:
+            raise self._bad("the table has no rows of numbers", "export nodes and pressures to it")
         self.columns = self._columns()
 
     def _bad(self, why: str, remedy: str) -> BadTable:
@@ -125,8 +124,8 @@ class _Table:
 
     # ------------------------------------------------------------------ rows
 
-    def _text(self, path: Path) -> str:
-        """The file as text."""
+    def _lines(self, path: Path) -> Lines:
+        """The lines of the file with their numbers, without comments."""
         try:
             raw = bytes_of(path, MAX_BYTES)
         except Unreadable as error:
@@ -138,15 +137,6 @@ class _Table:
             text = raw.decode("latin-1")
         if "\0" in text:
             raise self._bad("the file is not text", "export the table as CSV")
-        if not text.strip():
-            raise self._bad("the file is empty", "export nodes and pressures to it")
-        return text
-
-    def _split(self, text: str) -> list[tuple[int, Fields]]:
-        """The fields of each line, split in the way by which most lines hold only numbers.
-
-        If several ways are equal in this, the one that gives most lines with at least two numbers.
-        """
         lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)]
         lines = [(number, line) for number, line in lines if line and not _COMMENT.match(line)]
         for number, line in lines:
@@ -155,49 +145,24 @@ class _Table:
                     f"line {number} has {len(line)} characters; at most {MAX_LINE} are allowed",
                     "export only the columns that are needed",
                 )
-        ways = [[(n, _fields(line, *way)) for n, line in lines] for way in _DIALECTS]
-        best = max(ways, key=_score)
-        if _score(best)[1]:
-            return best
-        if any(
-            _is_number(field) for _, fields in ways[-1] for field in fields[:1] if not fields[1:]
-        ):
-            raise self._bad(
-                "the table has only one column of numbers",
-                "give the positions of the nodes and the pressure there",
-            )
-        raise self._bad("the table has no rows of numbers", "export nodes and pressures to it")
+        return lines
+
+    def _head(self, lines: Lines) -> tuple[Fields, str, Lines]:
+        """The names of the columns, the separator that shows them, and the lines below them."""
+        for i, (_, line) in enumerate(lines):
+            for separator in _SEPARATORS:
+                names = _fields(line, separator)
+                found = {what for name in names for what in _meant(_split_unit(name)[0])}
+                if {"x", "p"} <= found:
+                    return names, separator, lines[i + 1 :]
+        accepted = (f"{what} ({', '.join(NAMES[what][1:6])}, ...)" for what in MEANT)
+        raise self._bad(
+            f"no line names a column of {' and one of '.join(MEANT.values())}",
+            "write one above the numbers, such as x [mm], p [MPa]; names are "
+            + " and ".join(accepted),
+        )
 
     # ------------------------------------------------------------------ columns
-
-    def _header(self, head: list[Fields], width: int) -> tuple[list[str], dict[int, str]]:
-        """The names of the columns, and the units by column."""
-        units: dict[int, str] = {}
-        if head and len(head[-1]) == width and all(map(_is_unit, head[-1])):
-            units = {i: _UNIT.sub(r"\1", field) for i, field in enumerate(head.pop())}
-        if not head:
-            raise self._bad(
-                "the table has no line with column names",
-                "write one above the numbers, such as x [mm], p [MPa]",
-            )
-        names = _joined(head[-1], width)
-        if len(names) != width:
-            commas = " (commas may be decimal commas or separators)"
-            raise self._bad(
-                f"the table has {len(names)} name{'s' * (len(names) > 1)} for {width} columns"
-                + (commas if width == 2 * len(names) else ""),
-                "give each column a name, and separate columns by ; if numbers have decimal commas",
-            )
-        for i, name in enumerate(names):
-            if found := _UNIT.search(name):
-                units.setdefault(i, found.group(1))
-            elif behind := _BEHIND.fullmatch(name.strip(' "')):
-                stem, unit = behind.groups()
-                known = {u for what in _meant(stem) for u in _SCALES.get(what, {})} - {"in"}
-                if _key(unit) in known:
-                    units.setdefault(i, unit)
-                    names[i] = stem
-        return [_UNIT.sub("", name).strip(' "') for name in names], units
 
     def _columns(self) -> dict[str, list[int]]:
         """The columns of each quantity."""
@@ -205,13 +170,6 @@ class _Table:
         for i, name in enumerate(self.names):
             for what in _meant(name):
                 columns.setdefault(what, []).append(i)
-        for what in ("x", "p"):
-            if what not in columns:
-                accepted = f"{', '.join(NAMES[what][1:5])} or {NAMES[what][5]}"
-                raise self._bad(
-                    f"no column has {MEANT[what]}; the column names are {', '.join(self.names)}",
-                    f"name one of them {what!r}, or {accepted}",
-                )
         for what in ("x", "step"):
             if len(columns[what]) > 1:
                 several = ", ".join(self.names[i] for i in columns[what])
@@ -220,7 +178,7 @@ class _Table:
                 )
         tractions = [self.names[i] for i in columns["p"] + columns["q"]]
         for name in tractions:
-            if self.names.count(name) > 1:
+            if tractions.count(name) > 1:
                 raise self._bad(
                     f"two columns are named {name!r}", "give each column a different name"
                 )
@@ -230,42 +188,37 @@ class _Table:
         """The factor that converts a quantity to SI units; the shear has the unit of p."""
         known, example = (LENGTHS, "mm") if what == "x" else (STRESSES, "MPa")
         columns = [*self.columns[what], *(self.columns["q"] if what == "p" else [])]
-        own = {_key(unit): unit for i in columns if (unit := self.units.get(i))}
-        if what in given:
-            asked = _key(given[what])
-            if asked in known and any(known[asked] != known.get(key, known[asked]) for key in own):
-                raise self._bad(
-                    f"the table gives {what} in {' and '.join(own.values())}, but --unit says "
-                    f"{given[what]}",
-                    "remove --unit, or correct the table",
-                )
-            own = {asked: given[what]}
-        if not own:
-            name = self.names[columns[0]]
+        texts = [self.units[i] for i in columns if self.units[i]]
+        if what in given:  # in place of a unit that is not known, and beside one that is
+            texts = [*(text for text in texts if _key(text) in known), given[what]]
+        name = self.names[columns[0]]
+        if not texts:
             raise self._bad(
                 f"the unit of {name!r} is missing",
                 f"write {name} [{example}] above the column, or add --unit {what}={example}",
             )
-        if len(own) > 1:
+        for text in texts:
+            if _key(text) not in known:
+                common = ("m", "mm", "um", "in", "Pa", "MPa", "GPa", "N/mm2", "psi", "ksi")
+                allowed = ", ".join(unit for unit in common if _key(unit) in known)
+                raise self._bad(
+                    f"{text!r} is not a known unit for {MEANT[what]}", f"write one of {allowed}"
+                )
+        if len({known[_key(text)] for text in texts}) > 1:
             raise self._bad(
-                f"the tractions are given in different units, {' and '.join(own.values())}",
-                "use the same unit for all of them",
+                f"{name!r} is given in different units, {' and '.join(dict.fromkeys(texts))}",
+                "use one unit for all tractions, in the table and in --unit",
             )
-        ((key, text),) = own.items()
-        if key not in known:
-            common = ("m", "mm", "um", "in", "Pa", "MPa", "GPa", "N/mm2", "psi", "ksi")
-            allowed = ", ".join(unit for unit in common if _key(unit) in known)
-            raise self._bad(
-                f"{text!r} is not a known unit for {MEANT[what]}", f"write one of {allowed}"
-            )
-        return known[key]
+        return known[_key(texts[0])]
 
     def _numbers(self, column: int, scale: float) -> np.ndarray:
         """The numbers of one column in SI units; `scale` is the unit of the column."""
         values, name = [], self.names[column]
         for number, fields in self.rows:
             field = fields[column]
-            value = float(re.sub("[dD]", "e", field)) if _is_finite(field) else np.nan
+            point = field if self.separator == "," else field.replace(",", ".")
+            known = len(field) <= MAX_NUMBER and _NUMBER.fullmatch(point)
+            value = float(re.sub("[dD]", "e", point)) if known else np.nan
             if not np.isfinite(value):
                 what = f"{field!r}" if field else "nothing"
                 raise self._bad(
@@ -339,45 +292,25 @@ class _Table:
         return Step(name, x[order], p[order], None if q is None else q[order])
 
 
-def _fields(line: str, separator: str, comma: bool) -> Fields:
-    """The fields of a line; decimal commas become points."""
-    (row,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
-    fields = line.split() if separator == " " else [field.strip() for field in row]
-    while len(fields) > 1 and not fields[-1]:  # some programs end lines with a separator
-        fields.pop()
-    points = [field.replace(",", ".") if comma else field for field in fields]
-    return tuple(p if _is_number(p) else f for f, p in zip(fields, points, strict=True))
+def _fields(line: str, separator: str) -> Fields:
+    """The fields of a line; some programs end lines with a separator."""
+    if separator == " ":
+        return tuple(re.split(r"\s+(?![\[(])", line))  # a unit in brackets belongs to its name
+    (row,) = csv.reader([line.rstrip(separator)], delimiter=separator, skipinitialspace=True)
+    return tuple(field.strip() for field in row)
 
 
-def _is_number(field: str) -> bool:
-    return len(field) <= MAX_NUMBER and _NUMBER.fullmatch(field) is not None
-
-
-def _is_finite(field: str) -> bool:
-    known = _NUMBER.fullmatch(field)
-    return known is not None and known.group(1) is not None
-
-
-def _score(rows: Sequence[tuple[int, Fields]]) -> tuple[int, int]:
-    """The numbers of rows that hold only numbers, and of rows with at least two of them."""
-    counts = [(sum(map(_is_number, fields)), len(fields)) for _, fields in rows]
-    return sum(n == size > 1 for n, size in counts), sum(n > 1 for n, _ in counts)
-
-
-def _joined(fields: Fields, width: int) -> list[str]:
-    """Join each unit in brackets, if it is a field by itself, to the name before it."""
-    names: list[str] = []
-    for field in fields:
-        if len(fields) > width and names and _UNIT.fullmatch(field):
-            names[-1] += f" {field}"
-        else:
-            names.append(field)
-    return names
-
-
-def _is_unit(field: str) -> bool:
-    unit = _key(_UNIT.sub(r"\1", field))
-    return unit in ("", "-", "s", "1") or unit in LENGTHS or unit in STRESSES
+def _split_unit(name: str) -> tuple[str, str]:
+    """A name and its unit, in brackets or as in x_mm and p / MPa; "" for none."""
+    name = name.strip(' "')
+    if found := _UNIT.search(name):
+        return _UNIT.sub("", name).strip(), found.group(1)
+    if behind := _BEHIND.fullmatch(name):
+        stem, unit = behind.groups()
+        known = {u for what in _meant(stem) for u in _SCALES.get(what, {})} - {"in"}
+        if _key(unit) in known:
+            return stem, unit
+    return name, ""
 
 
 def _key(unit: str) -> str:

@@ -1,7 +1,6 @@
 """One page of the handbook for one body, and the index of several."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -11,7 +10,6 @@ from pygments import highlight
 from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer
 
-from derive.command.errors import NotProven
 from derive.handbook.curves import pictures, profile
 from derive.proof.verdict import Verdict
 from derive.sheet.built import BuiltBody
@@ -50,27 +48,12 @@ class Entry(NamedTuple):
     formulas: int
 
 
-def proven(sheet: FormulaSheet, body: BuiltBody) -> FormulaSheet:
-    """The sheet without the closed forms for which its body has no proof.
-
-    The search for closed forms has a time limit, so it may now find forms that it did not find when
-    the body was built.  All other formulas are kept; `page` demands their proofs.
-    """
-    known = dict(body.proofs)
-    unproven = [name for name, formula in sheet.items() if formula.closes and name not in known]
-    if not unproven:
-        return sheet
-    kept = {name: formula for name, formula in sheet.items() if name not in unproven}
-    remark = f"{sheet.remark}  Not proven, and therefore not shown: {', '.join(unproven)}."
-    return replace(sheet, formulas=kept, remark=body.time_limit_note or remark)
-
-
 def page(sheet: FormulaSheet, body: BuiltBody, index: bool = False) -> str:
-    """The page of one body.
+    """The page of one body, from its proven sheet.
 
     index: whether the page belongs to a set with an index, to which it links
 
-    Raises NotProven for a formula of the sheet for which the body has no proof.
+    Raises NotProven for a formula without a proof.
     """
     geometry = sheet.geometry
     symbols = [q for q in sheet.quantities if q not in geometry.parameters]
@@ -85,7 +68,7 @@ def page(sheet: FormulaSheet, body: BuiltBody, index: bool = False) -> str:
             entry=entry(sheet, body),
             parameters=[(mathml(latex_of(p.symbol), "inline"), p) for p in geometry.parameters],
             symbols=[(mathml(latex_of(q.symbol), "inline"), q) for q in symbols],
-            rows=list(_rows(sheet, dict(body.proofs))),
+            rows=list(_rows(sheet)),
             defined=defined,
             figures=figures(sheet, body),
             remark=sheet.remark,
@@ -103,7 +86,7 @@ def figures(sheet: FormulaSheet, body: BuiltBody) -> Markup:
     return Markup(_templates().get_template("figures.html").render(drawn))
 
 
-def index(entries: Sequence[Entry]) -> str:
+def index_of(entries: Sequence[Entry]) -> str:
     """The page with links to all others; the page of a body `name` is name.html."""
     return _templates().get_template("index.html").render(entries=entries, style=_style())
 
@@ -122,14 +105,11 @@ def entry(sheet: FormulaSheet, body: BuiltBody) -> Entry:
     )
 
 
-def _rows(sheet: FormulaSheet, proofs: Mapping[str, str]) -> Iterator[Row]:
-    for name, formula in sheet.items():
-        if name not in proofs:
-            raise NotProven(f"{name} of {sheet.geometry.name!r}: its body contains no proof of it")
+def _rows(sheet: FormulaSheet) -> Iterator[Row]:
+    for name, formula in sheet.demand_proven().items():
+        assert formula.proof is not None
         latex = f"{formula.left} = {latex_of(sheet.shown(name))}"
         conditions = tuple(mathml(latex_of(c), "inline") for c in formula.conditions)
-        proof = proofs[name]
-        verdict = Verdict(proof.partition(":")[0])
         yield Row(
             name,
             formula.meaning,
@@ -138,8 +118,8 @@ def _rows(sheet: FormulaSheet, proofs: Mapping[str, str]) -> Iterator[Row]:
             latex,
             conditions,
             formula.source,
-            verdict,
-            proof.partition(": ")[2],
+            formula.proof.verdict,
+            str(formula.proof).partition(": ")[2],
         )
 
 

@@ -24,7 +24,7 @@ if find_spec("matplotlib") is None:
     raise MissingLibrary("matplotlib", "drawing", "plot")
 
 from derive.plot.histories import film, friction_work, instants, work
-from derive.plot.live import Live, Loads, sliders
+from derive.plot.live import Loads, sliders
 from derive.plot.measure import Measure, over, unit
 from derive.plot.series import errors, relative_errors
 from derive.plot.style import COLOURS, LINES, save, style, subplots
@@ -34,7 +34,6 @@ from derive.plot.zones import boundaries, key, slip_map, stick_slip, sweep
 __all__ = [
     "COLOURS",
     "LINES",
-    "Live",
     "Loads",
     "Measure",
     "boundaries",

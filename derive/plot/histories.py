@@ -5,7 +5,6 @@ positions.
 """
 
 from collections.abc import Sequence
-from itertools import compress
 from types import ModuleType
 from typing import Any
 
@@ -15,7 +14,6 @@ from matplotlib.axes import Axes
 
 from derive.plot.given import (
     demand_friction,
-    demand_indices,
     demand_labels,
     demand_numbers,
     positions_of,
@@ -23,26 +21,23 @@ from derive.plot.given import (
 )
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, canvas, style
-from derive.plot.tractions import band, key_above, typical
-from derive.plot.zones import AREAS, kinds_of_slip
+from derive.plot.tractions import band, peak
+from derive.plot.zones import AREAS, key, kinds_of_slip
 
 
 def _bounds(body: ModuleType, history: Any, x: Array, f: float, constants: Any) -> Array:
     """f p at all positions and instants; NaN at a corner, where p is infinite."""
-    demand_numbers("but one history has one value; give a finite number", f=f, **constants)
-    if not f > 0:
-        raise ValueError(
-            f"f is {f}; give the positive coefficient of friction that was given to `history`"
-        )
+    demand_numbers(f=f, **constants)
     bound = f * body.pressure(x, history.a[:, None], history.c[:, None], **constants)
     demand_friction(history, x, bound)
     return np.where(np.isfinite(bound), bound, np.nan)
 
 
-def _note(axes: Axes, why: str, names: Sequence[str], missing: Array) -> None:
-    """Write in the picture which of the curves are missing, and why."""
-    if np.any(missing):
-        text = f"{why}: {', '.join(compress(names, missing))}"
+def _note_missing(axes: Axes, what: str, names: Sequence[str], curves: Array) -> None:
+    """Write in the picture which of the curves are not known."""
+    missing = [n for n, y in zip(names, curves, strict=True) if not np.any(np.isfinite(y))]
+    if missing:
+        text = f"{what} not known: {', '.join(missing)}"
         axes.text(0.02, 0.015, text, transform=axes.transAxes)
 
 
@@ -97,30 +92,33 @@ def instants(
         If the history does not fit x, f, the body or the constants; the message says what is wrong.
     """
     x, count = positions_of(history, x), np.size(history.a)
-    demand_indices(at, count)
+    try:
+        numbers = [range(count)[i] for i in at]
+    except (TypeError, IndexError) as error:
+        raise ValueError(
+            f"`at` is {at!r:.60}; give a list of indices from {-count} to {count - 1}, because "
+            f"history has {count} instants"
+        ) from error
     demand_labels(labels, len(at), "instants")
     bound = _bounds(body, history, x, f, constants)
     chosen = [bound[i] for i in at]
     touching = (x >= -np.min(history.a)) & (x <= np.min(history.c))
     slip = np.where(touching, history.slip, np.nan)
     length = length or unit(x, "m")
-    stress, depth = stress or unit(typical(np.ravel(chosen)), "Pa"), unit(slip, "m")
+    stress, depth = stress or unit(peak(*chosen), "Pa"), unit(slip, "m")
     with canvas(axes, 2, size=(5.6, 5.0)) as axes:
-        names = list(labels) or [f"instant {range(count)[i]}" for i in at]
+        names = list(labels) or [f"instant {i}" for i in numbers]
         for number, (i, name, limit) in enumerate(zip(at, names, chosen, strict=True)):
             if number == 0 or not np.allclose(limit, chosen[0], equal_nan=True):
                 band(axes[0], length(x), stress(limit), "" if number else r"$\pm f\,p$")
             axes[0].plot(length(x), stress(history.q[i]), label=name)
             axes[1].plot(length(x), depth(slip[i]))
-        _note(axes[0], "no contact", names, [np.isnan(history.a[i]) for i in at])
-        if np.any(touching):
-            _note(axes[1], "slip not known", names, [np.all(np.isnan(slip[i])) for i in at])
-        else:
-            _note(axes[1], "slip not drawn", ["no point is in contact at all instants"], [True])
-        highest = 1.15 * float(np.max(typical(stress(np.ravel(chosen))), initial=0.0)) or 1.0
+        _note_missing(axes[0], "shear", names, history.q[numbers])
+        _note_missing(axes[1], "slip", names, slip[numbers])
+        highest = 1.15 * peak(*(stress(limit) for limit in chosen))
         axes[0].set(ylabel=stress.label("q"), ylim=(-highest, highest))
         axes[1].set(xlabel=length.label("x"), ylabel=depth.label("s"))
-        key_above(axes[0])
+        key(axes[0])
     return axes
 
 
@@ -214,8 +212,8 @@ def film(
     """
     x, at = positions_of(history, x), times(time, np.arange(np.size(history.a), dtype=float))
     bound = _bounds(body, history, x, f, constants)
-    length, stress = length or unit(x, "m"), stress or unit(typical(np.ravel(bound)), "Pa")
-    position, highest = length(x), 1.15 * float(np.nanmax(typical(stress(np.ravel(bound)))))
+    length, stress = length or unit(x, "m"), stress or unit(peak(bound), "Pa")
+    position, highest = length(x), 1.15 * peak(stress(bound))
     senses = np.vstack([np.zeros(np.size(x)), kinds_of_slip(history)])
     with canvas(axes, size=(5.0, 3.0)) as axes:
         grey: dict[str, Any] = {"color": "#888888", "linewidth": 1}
@@ -229,7 +227,7 @@ def film(
         caption = axes.text(0.98, 0.04, "", transform=axes.transAxes, ha="right")
         axes.set(xlabel=length.label("x"), ylabel=stress.label("q"))
         axes.set(xlim=(position.min(), position.max()), ylim=(-highest, highest))
-        key_above(axes)
+        key(axes)
 
     def draw(i: int) -> list[Any]:
         with style():

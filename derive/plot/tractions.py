@@ -7,15 +7,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from derive.plot.given import (
-    demand_contact_of,
-    demand_contacts,
-    demand_numbers,
-    demand_signs,
-)
+from derive.plot.given import demand_contact, demand_half_cycle, demand_labels
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, canvas
-from derive.plot.zones import AREAS, MIXED, regime_in_words, senses
+from derive.plot.zones import AREAS, MIXED, key, regime_in_words, senses
 
 SAMPLES = 401
 """Number of points along a contact, minus one; they are closer together towards its edges."""
@@ -76,43 +71,29 @@ def pressures(
     ValueError
         If a contact is not one of this body with these constants, or the number of labels is wrong.
     """
-    demand_contacts(states, labels)
+    demand_labels(labels, len(states), "states")
     lines = []
     for i, state in enumerate(states):
-        demand_contact_of(f"states[{i}]", body, state, constants)
+        demand_contact(f"states[{i}]", body, state, constants)
         x = places(-float(state.a), float(state.c))
         lines.append((x, body.pressure(x, state.a, state.c, **constants)))
-    length = length or unit(np.concatenate([x for x, _ in lines]), "m")
-    stress = stress or unit(np.concatenate([typical(p) for _, p in lines]), "Pa")
+    length = length or unit([x for x, _ in lines], "m")
+    stress = stress or unit(peak(*(p for _, p in lines)), "Pa")
     with canvas(axes) as axes:
         for i, (x, p) in enumerate(lines):
             axes.plot(length(x), stress(p), label=labels[i] if labels else None)
         axes.set(xlabel=length.label("x"), ylabel=stress.label("p"))
-        _from_zero(axes, [stress(p) for _, p in lines])
+        axes.set_ylim(0, 1.08 * peak(*(stress(p) for _, p in lines)))
         if labels:
             axes.legend()
     return axes
 
 
-def typical(p: Array) -> Array:
-    """The pressures without the peak at a corner, where the pressure is infinite."""
-    finite = p[np.isfinite(p)]
-    return finite if finite.size < 2 else finite[finite <= np.quantile(finite, 0.97)]
-
-
 def peak(*drawn: Array) -> float:
     """The largest of all pressures, with the infinite peak at a corner cut off above the others."""
-    finite = [p[np.isfinite(p)] for p in drawn]
-    top = max(float(np.max(p, initial=0.0)) for p in finite)
-    rest = max(float(np.max(typical(p), initial=0.0)) for p in finite)
-    return min(top, 1.35 * rest)
-
-
-def _from_zero(axes: Axes, drawn: Sequence[Array]) -> None:
-    """Set the limits of an axis of pressure, which begins at zero."""
-    top = peak(*drawn)
-    if top > 0:
-        axes.set_ylim(0, 1.08 * top)
+    values = np.concatenate([np.ravel(p) for p in drawn])
+    finite = values[np.isfinite(values)]
+    return float(min(np.max(finite), 1.35 * np.quantile(finite, 0.97))) if finite.size else 1.0
 
 
 def tractions(
@@ -161,13 +142,14 @@ def tractions(
     ValueError
         If a contact is not one of this body with these constants, dQ < 0, or f is not positive.
     """
-    _demand_half_cycle(body, first, second, dQ, dsigma, f, constants)
+    ends = {"first": first, "second": second}
+    demand_half_cycle(body, ends, f, constants, dQ=dQ, dsigma=dsigma)
     law = {"f": f, **constants}
     x = places(-float(max(first.a, second.a)), float(max(first.c, second.c)))
     p1, p2 = (body.pressure(x, s.a, s.c, **constants) for s in (first, second))
     shear = body.shear_change(x, first, second, dQ, dsigma, **law)
     zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
-    length, stress = length or unit(x, "m"), stress or unit(typical(np.append(p1, p2)), "Pa")
+    length, stress = length or unit(x, "m"), stress or unit(peak(p1, p2), "Pa")
     with canvas(axes, 2, size=(5.6, 5.0)) as axes:
         above, below = axes
         same = bool(np.all(np.isclose(p1, p2, rtol=1e-12, atol=0) | (p1 == p2)))
@@ -182,16 +164,15 @@ def tractions(
             length(x), stress(shear), color=COLOURS["vermilion"], linewidth=2, label=r"$\Delta q$"
         )
         _shade(axes, second, zone, dsigma, length)
-        _from_zero(above, [stress(p1), stress(p2)])
+        above.set(ylabel=stress.label("p"), ylim=(0, 1.08 * peak(stress(p1), stress(p2))))
         known = np.isfinite(shear)
         if not np.any(known):
             _say_why(below, body, zone, "shear")
-        highest = np.max(np.abs(stress(shear[known])), initial=0.0) or np.max(typical(limit))
-        below.set_ylim(-1.6 * highest, 1.6 * highest)
-        above.set(ylabel=stress.label("p"))
+        highest = 1.6 * (np.max(np.abs(stress(shear[known])), initial=0.0) or peak(limit))
         below.set(xlabel=length.label("x"), ylabel=stress.label(r"\Delta q"))
-        key_above(above)
-        key_above(below)
+        below.set_ylim(-highest, highest)
+        for each in axes:
+            key(each)
     return axes
 
 
@@ -236,10 +217,10 @@ def shear(
         If the contact is not one of this body with these constants, or the shear traction is not
         known; the message gives the reason.
     """
-    demand_numbers(Q=Q, sigma=sigma)
     if not isinstance(between, int) or between < 0:
         raise ValueError(f"between is {between!r}; give a whole number of states, 0 or more")
-    _demand_half_cycle(body, contact, contact, dQ, dsigma, f, constants)
+    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
+    demand_half_cycle(body, {"contact": contact}, f, constants, **loads)
     law = {"f": f, **constants}
     x = places(-float(contact.a), float(contact.c))
     bound = f * body.pressure(x, contact.a, contact.c, **constants)
@@ -248,62 +229,28 @@ def shear(
         x, contact, Q, sigma, dQ=parts[:, None] * dQ, dsigma=parts[:, None] * dsigma, **law
     )
     if not np.all(np.any(np.isfinite(q[[0, -1]]), axis=1)):
-        changes = {"first rise": (2 * Q, 2 * sigma), "fall": (dQ, dsigma)}
+        rise, fall = (
+            regime_in_words(body, body.stick_zone(contact, contact, *change, **law))
+            for change in ((2 * Q, 2 * sigma), (dQ, dsigma))
+        )
         raise ValueError(
             f"the shear traction is not known for Q = {Q:g}, sigma = {sigma:g}, dQ = {dQ:g} and "
-            f"dsigma = {dsigma:g}: {_why_unknown(body, contact, changes, law)}"
+            f"dsigma = {dsigma:g}, where the regime of the first rise is {rise} and that of the "
+            f"fall is {fall}; give loads under which both are full stick, moderate or large, and "
+            "the end with the larger shear load as Q and sigma, so that dQ <= 2 Q"
         )
-    length, stress = length or unit(x, "m"), stress or unit(typical(bound), "Pa")
+    length, stress = length or unit(x, "m"), stress or unit(peak(bound), "Pa")
     with canvas(axes) as axes:
         band(axes, length(x), stress(bound), r"$\pm f\,p$")
         for inner in q[1:-1]:
             axes.plot(length(x), stress(inner), color=COLOURS["sky"], linewidth=0.8)
         for end, colour, label in ((0, "vermilion", "upper end"), (-1, "blue", "lower end")):
             axes.plot(length(x), stress(q[end]), color=COLOURS[colour], linewidth=2, label=label)
-        highest = 1.6 * np.nanmax(np.abs(stress(q)), initial=0.0) or np.max(typical(bound))
+        highest = 1.6 * np.nanmax(np.abs(stress(q)), initial=0.0) or peak(stress(bound))
         axes.set_ylim(-highest, highest)
         axes.set(xlabel=length.label("x"), ylabel=stress.label("q"))
-        key_above(axes)
+        key(axes)
     return axes
-
-
-def _why_unknown(
-    body: ModuleType,
-    contact: Any,
-    changes: dict[str, tuple[float, float]],
-    law: dict[str, float],
-) -> str:
-    """The reason why the shear traction at the ends of a cycle is not known, and what to do.
-
-    changes: dQ and dsigma of each part of the cycle, by the name of the part
-    """
-    for part, change in changes.items():
-        regime = regime_in_words(body, body.stick_zone(contact, contact, *change, **law))
-        if regime not in ("moderate", "large", "full stick"):
-            return (
-                f"the {part} is in the regime {regime}; give loads under which its regime is full "
-                "stick, moderate or large tension"
-            )
-    return (
-        "the zones that slip in the first rise and in the fall do not match, or slip continues in "
-        "the same direction; give the end with the larger shear load as Q and sigma, so that "
-        "dQ <= 2 Q"
-    )
-
-
-def _demand_half_cycle(
-    body: ModuleType,
-    first: Any,
-    second: Any,
-    dQ: float,
-    dsigma: float,
-    f: float,
-    constants: dict[str, float],
-) -> None:
-    demand_numbers(dQ=dQ, dsigma=dsigma, f=f)
-    demand_signs(dQ, f)
-    demand_contact_of("first", body, first, constants)
-    demand_contact_of("second", body, second, constants)
 
 
 def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Measure) -> None:
@@ -329,18 +276,6 @@ def band(axes: Axes, x: Array, limit: Array, label: str) -> None:
     """Draw the friction bounds of either sign."""
     for side, text in ((1, label), (-1, None)):
         axes.plot(x, side * limit, color="#888888", linewidth=1, label=text)
-
-
-def key_above(axes: Axes) -> None:
-    """Draw a legend in one row above the Axes."""
-    axes.legend(
-        loc="lower left",
-        bbox_to_anchor=(0, 1.0),
-        ncols=4,
-        borderaxespad=0.1,
-        handlelength=1.6,
-        columnspacing=1.2,
-    )
 
 
 def _say_why(axes: Axes, body: ModuleType, zone: Any, what: str) -> None:
@@ -376,7 +311,8 @@ def slip(
     sequence of Axes
         The two Axes with the pictures.
     """
-    _demand_half_cycle(body, first, second, dQ, dsigma, f, constants)
+    contacts = {"first": first, "second": second}
+    demand_half_cycle(body, contacts, f, constants, dQ=dQ, dsigma=dsigma)
     law = {"f": f, **constants}
     zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
     left, right = -float(min(first.a, second.a)), float(min(first.c, second.c))
@@ -398,7 +334,7 @@ def slip(
         axes[0].set(ylabel=depth.label("s"))
         axes[1].set(xlabel=length.label("x"), ylabel=joule.label("f\\,p\\,s"))
         if axes[1].get_legend_handles_labels()[1]:
-            key_above(axes[1])
+            key(axes[1])
         for each in axes:
             each.set_ylim(bottom=0)
     return axes

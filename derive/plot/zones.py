@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 
-from derive.plot.given import demand_fitting, demand_row, positions_of, times
+from derive.plot.given import positions_of, row, times
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import FORWARD, LINES, REVERSE, STICK, canvas, style
 
@@ -71,10 +71,7 @@ def stick_slip(
     """
     a = np.asarray(cycle.a)
     if a.ndim != 1:
-        raise ValueError(
-            f"cycle has the shape {a.shape}, but only one cycle can be drawn; select one of them, "
-            "for example by March(*(v[0] for v in cycle))"
-        )
+        raise ValueError(f"cycle has the shape {a.shape}; give one cycle")
     at = times(time, np.linspace(0, 1, a.size))
     axes = _map(at, _Zones(*(np.asarray(v) for v in cycle)), axes, length, legend)
     axes.set_xlabel("$t$  [cycles]" if time is None else "$t$")
@@ -124,37 +121,19 @@ def sweep(
     ValueError
         If the shapes do not fit, or dsigma is not the one that was given to `stick_zone`.
     """
-    at = np.asarray(parameter, dtype=float)
-    demand_row("parameter", at)
-    named = {"contact.a": contact.a, "contact.c": contact.c, "zone.m": zone.m, "zone.n": zone.n}
-    demand_fitting(at.shape, dsigma=dsigma, **named)
-    _demand_tension(zone, dsigma)
+    at = row("parameter", parameter, increases=False)
+    by_sign = np.isin(zone.regime, (LARGE, MIXED)) & (np.asarray(dsigma) == 0)
+    if np.any((by_sign | np.isnan(dsigma)) & np.isfinite(zone.m)):
+        raise ValueError(
+            "dsigma is 0 or NaN for a stick zone under tension, but its sign determines the "
+            "direction of slip at each edge; give the dsigma that was given to stick_zone"
+        )
     left, right = senses(zone, dsigma)
     given = contact.a, contact.c, zone.m, zone.n, left, right, zone.regime
     zones = _Zones(*(np.broadcast_to(value, at.shape) for value in given))
     axes = _map(at, zones, axes, length, legend)
     axes.set_xlabel(label)
     return axes
-
-
-def _demand_tension(zone: Any, dsigma: Array) -> None:
-    """Demand a tension that is not zero wherever its sign determines the direction of slip.
-
-    Without tension, both edges slip in the same direction.
-    """
-    regime, zero = np.asarray(zone.regime), np.asarray(dsigma) == 0
-    if np.any(np.isnan(dsigma) & np.isfinite(zone.m)):
-        raise ValueError(
-            "dsigma is NaN for a stick zone that is known; give the dsigma that was given to "
-            "stick_zone"
-        )
-    wrong = ((regime == LARGE) | ((regime == MIXED) & np.isfinite(zone.m))) & zero
-    if np.any(wrong):
-        name = "large" if np.any(wrong & (regime == LARGE)) else "mixed"
-        raise ValueError(
-            f"dsigma is 0 where the regime is {name}, but there its sign determines the direction "
-            "of slip at each edge; give the dsigma that was given to stick_zone"
-        )
 
 
 def slip_map(
@@ -193,11 +172,7 @@ def slip_map(
         If the history does not fit x, has fewer than two instants, or has no contact.
     """
     x, at = positions_of(history, x), times(time, np.arange(np.size(history.a), dtype=float))
-    if at.size < 2:
-        raise ValueError(
-            "history has one instant, but a map shows the slip between instants; give a history "
-            "of at least two instants"
-        )
+    at = row("time", at)
     length = length or unit(np.append(history.a, history.c), "m")
     kinds = kinds_of_slip(history)
     touching = np.isfinite(history.a)

@@ -8,5 +8,5 @@ prose        formulas in plain text as HTML
 picture      curves as SVG
 formulas     FormulaSheet, which holds the formulas
 derivation   a body's sheet, derived from g(x) stage by stage
-built        the finished body as plain data, which the cache keeps
+built        the finished body as plain data
 """

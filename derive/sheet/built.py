@@ -1,7 +1,6 @@
 """A finished body, as the pipeline returns it.
 
-It is passed between processes and stored in files.  It therefore contains only plain data and no
-expressions.
+It is passed between processes and therefore contains only plain data and no expressions.
 """
 
 from collections.abc import Callable
@@ -28,9 +27,7 @@ class BuiltBody:
     closed     parts of the contact law that are closed formulas
     numerical  parts of the contact law that are computed numerically
     verdicts   verdict on every formula
-    proofs     how each formula was proven, in words
     time_limit_note  message if the search for closed forms reached its time limit, otherwise empty
-    kept       whether the body was read from the cache
     """
 
     name: str
@@ -40,9 +37,7 @@ class BuiltBody:
     closed: tuple[str, ...]
     numerical: tuple[str, ...]
     verdicts: tuple[tuple[str, Verdict], ...]
-    proofs: tuple[tuple[str, str], ...] = field(compare=False)
     time_limit_note: str = ""
-    kept: bool = field(default=False, compare=False)
 
     def formulas(self, verdict: Verdict) -> tuple[str, ...]:
         """Names of the formulas with this verdict."""

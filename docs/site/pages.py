@@ -16,12 +16,9 @@ from sympy import together
 
 from derive import symbols
 from derive.body.library import library, load_geometry
-from derive.command.limit import DEFAULT
-from derive.command.processes import cores
-from derive.command.showing import sheets_of
 from derive.handbook.curves import profile
 from derive.handbook.page import figures
-from derive.pipeline import build_all
+from derive.pipeline import sheet_and_body
 from derive.sheet.built import BuiltBody
 from derive.sheet.derivation import derive_sheet
 from derive.sheet.formulas import FormulaSheet
@@ -64,11 +61,10 @@ def lay_out(target: Path) -> None:
         drawn((target / "docs" / "pictures.md").read_text(), target / "docs")
     )
     (target / "theory.md").write_text(theory())
-    bodies = build_all(library(), jobs=cores())
-    sheets = sheets_of(bodies, DEFAULT)
-    (target / "handbook.md").write_text("\n".join(handbook(sheets)))
+    built = [sheet_and_body(name) for name in library()]
+    (target / "handbook.md").write_text("\n".join(handbook(sheet for sheet, _ in built)))
     (target / "handbook").mkdir()
-    for sheet, body in zip(sheets, bodies, strict=True):
+    for sheet, body in built:
         (target / "handbook" / f"{body.name}.md").write_text("\n".join(formulas(sheet, body)))
     for name, write in REFERENCES.items():
         (target / f"{name}.md").write_text("\n".join(write()))
@@ -149,7 +145,7 @@ def handbook(sheets: Iterable[FormulaSheet]) -> Iterator[str]:
 
 def formulas(sheet: FormulaSheet, body: BuiltBody) -> Iterator[str]:
     """Yield the page of one body: all formulas with meaning, condition, source and proof."""
-    geometry, proofs = sheet.geometry, dict(body.proofs)
+    geometry = sheet.geometry
     yield f"# {_plain(geometry.name)}\n"
     yield f"{_plain(geometry.title)}\n"
     yield f"$$g(x) = {latex_of(geometry.g)}$$ ({body.name}-profile)\n"
@@ -167,7 +163,7 @@ def formulas(sheet: FormulaSheet, body: BuiltBody) -> Iterator[str]:
         conditions = ", ".join(f"${latex_of(each)}$" for each in formula.conditions)
         yield f"`{name}` [{unit(formula.unit)}], valid for {conditions}.\n"
         yield f"- Source: {_plain(formula.source)}."
-        yield f"- {_capitalised(_plain(proofs[name]))}.\n"
+        yield f"- {_capitalised(_plain(str(formula.proof)))}.\n"
         yield _folded("LaTeX", "latex", latex)
     if sheet.definitions:
         yield "## Abbreviations\n"

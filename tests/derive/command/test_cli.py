@@ -17,7 +17,6 @@ import pytest
 from sympy import expand, sympify
 
 import derive.codegen.trial
-import derive.command.cache
 import derive.command.processes
 import derive.command.terminal
 import derive.pipeline
@@ -27,7 +26,7 @@ from derive.body.library import library, load_geometry
 from derive.codegen.mark import MARK
 from derive.command.cli import main
 from derive.command.processes import Bounds
-from derive.pipeline import DONE, GENERATED, KEPT, STAGES
+from derive.pipeline import DONE, GENERATED, STAGES
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet.built import BuiltBody, by_form
 from derive.sheet.derivation import derive_law, derive_sheet, slip_series, with_closed_forms
@@ -70,10 +69,7 @@ STUCK = (GENERATED / "full_stick.py").read_text(encoding="utf-8")
 def body_of(sheet: FormulaSheet, text: str) -> BuiltBody:
     """A body without the seconds that its text takes."""
     verdicts = tuple((name, Verdict.PROVEN) for name in sheet)
-    proofs = tuple((name, "proven: a stand-in for a proof") for name in sheet)
-    return BuiltBody(
-        sheet.geometry.name, text, STUCK, 0.0, *by_form(sheet.is_closed), verdicts, proofs
-    )
+    return BuiltBody(sheet.geometry.name, text, STUCK, 0.0, *by_form(sheet.is_closed), verdicts)
 
 
 def of_library(name: str, text: str) -> BuiltBody:
@@ -90,16 +86,18 @@ def built(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     texts = {name: (GENERATED / f"{name}.py").read_text() for name in library()}
     asked = []
 
-    def build(source: str, report: Callable[[str, str], None], limit: float) -> BuiltBody:
+    def build(
+        source: str, report: Callable[[str, str], None], limit: float
+    ) -> tuple[None, BuiltBody]:
         asked.append(source)
         for stage in STAGES:
             report(source, stage)
         if source in texts:
-            return of_library(source, texts[source])
+            return None, of_library(source, texts[source])
         made = derive_sheet(load_geometry(source))
-        return body_of(made, f"{MARK}\n# {made.geometry.g}\n")
+        return None, body_of(made, f"{MARK}\n# {made.geometry.g}\n")
 
-    monkeypatch.setattr(derive.pipeline, "build", build)
+    monkeypatch.setattr(derive.pipeline, "sheet_and_body", build)
     monkeypatch.setattr(derive.command.processes, "cores", lambda: 1)
     return asked
 
@@ -270,19 +268,15 @@ def test_a_limit_that_strikes_is_told() -> None:
 def test_generate_tells_of_a_limit_that_struck(
     here: Path, unproven: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Also when the body is kept from an earlier run; another limit looks again."""
+    """The module is the same."""
     monkeypatch.setattr(derive.command.processes, "cores", lambda: 1)
     told = "catenary: No closed form found within 1e-09 s; the formulas remain integrals.\n"
     first = run("generate", "catenary", "--out", "made", "--limit", "1e-9")
     assert (first.exit_code, first.stderr) == (0, told)
     text = (here / "made" / "catenary.py").read_bytes()
-    again = run("generate", "catenary", "--out", "made", "--limit", "1e-9")
-    assert "kept" in again.stdout
-    assert again.stderr == told
-    third = run("generate", "catenary", "--out", "made")
-    assert "kept" not in third.stdout
-    assert "by special functions" in third.stdout
-    assert third.stderr == ""
+    again = run("generate", "catenary", "--out", "made")
+    assert "by special functions" in again.stdout
+    assert again.stderr == ""
     assert (here / "made" / "catenary.py").read_bytes() == text
 
 
@@ -382,25 +376,18 @@ def test_a_file_becomes_a_package_that_stands_alone(tmp_path: Path) -> None:
 class TestGenerate:
     """`derive generate` around the pipeline."""
 
-    def test_it_writes_what_has_changed_and_builds_nothing_twice(
-        self, committed: Path, built: list[str]
-    ) -> None:
+    def test_it_writes_what_has_changed_and_nothing_else(self, committed: Path) -> None:
         before = contents(committed)
         for path in committed.glob("*.*"):  # all but the library, which is written by hand
             path.unlink()
         printed = done("generate")
-        assert "Wrote" in printed and "kept" not in printed
+        assert "Wrote" in printed
         assert printed.count("0.0 s") == len(library())
         assert all(name in printed for name in library())
         assert contents(committed) == before
         times = {p: p.stat().st_mtime_ns for p in [committed, *committed.iterdir()]}
-        printed = done("generate")
-        assert "Nothing to change" in printed
-        assert printed.count("kept") == len(library())
+        assert "Nothing to change" in done("generate", "--fresh")
         assert {p: p.stat().st_mtime_ns for p in times} == times
-        assert built == [*library()]
-        assert "kept" not in done("generate", "--fresh")
-        assert built == [*library()] * 2
         (committed / "hertz.py").write_text(f"{MARK}\nold = 1\n")
         done("generate", "hertz")
         assert contents(committed) == before
@@ -445,11 +432,7 @@ class TestGenerate:
 class TestCheck:
     """`derive generate --check`."""
 
-    def test_it_passes_and_never_opens_what_was_kept(
-        self, committed: Path, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        """Which may be anything: `generate` cannot know."""
-        monkeypatch.setattr(derive.command.cache.Cache, "get", None)
+    def test_it_passes_where_nothing_has_changed(self, committed: Path) -> None:
         assert "is up to date" in done("generate", "--check")
 
     @pytest.mark.parametrize(
@@ -569,7 +552,7 @@ def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr("rich.progress.Progress.update", lambda bar, task, **now: told.append(now))
     with derive.command.terminal.progress(3, STAGES) as step:
         for body, stage in [
-            ("a", KEPT),
+            ("a", DONE),
             ("b", STAGES[0]),
             ("c", STAGES[0]),
             ("b", STAGES[3]),

@@ -140,7 +140,7 @@ def test_the_file_is_like_those_of_the_library() -> None:
     ]
     assert made.startswith('"""A flat punch."""\n\nfrom sympy import Abs, Piecewise\n')
     assert 'b = parameter("b", "half-width", unit="m")\n' in made
-    assert "Piecewise((0, Abs(x) <= b), ((Abs(x) - b) ** 2 / (2 * R), True))" in made
+    assert "Piecewise((0, b >= Abs(x)), ((-b + Abs(x)) ** 2 / (2 * R), True))" in made
 
 
 def test_the_file_passes_the_linter() -> None:

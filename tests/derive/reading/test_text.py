@@ -1,6 +1,5 @@
 """g(x) as text: read exactly, or refused with a caret under the place; nothing is ever run."""
 
-import re
 import time
 from collections.abc import Callable
 from types import FunctionType
@@ -26,7 +25,7 @@ from sympy import (
 )
 
 from derive.command.errors import BadText
-from derive.command.python_of import code_of
+from derive.command.new_geometry import _Exact
 from derive.reading.limits import LARGEST, MOST_TERMS, STEEPEST, terms
 from derive.reading.profile import OF_PROFILES, parameters, read, tree_of
 from derive.reading.tokens import LONGEST
@@ -273,9 +272,7 @@ def test_a_text_means_what_it_means_in_python_and_what_is_written_of_it(pair: Pa
     text, wanted = pair
     expr = read_or_skip(text)
     assert expr == computed(wanted)
-    code, imports = code_of(tree_of(text))
-    assert sympy.sympify(computed(code)) == expr
-    assert imports == set(re.findall(r"[A-Za-z]+", code)) - {"x", "R", "b", "k", "True"}
+    assert sympy.sympify(computed(_Exact().doprint(expr))) == expr
 
 
 @settings(max_examples=300)
@@ -285,24 +282,6 @@ def test_any_text_is_read_or_refused(text: str) -> None:
         assert isinstance(read(text), Expr)
     except BadText as error:
         assert 0 <= error.column <= len(text)
-
-
-AS_PYTHON = {
-    "6*2/4*x": "Rational(6 * 2, 4) * x",
-    "x**(1/3)": "x**Rational(1, 3)",
-    "2**-1*x": "Rational(2)**(-1) * x",
-    "-1/2*x": "Rational(-1, 2) * x",
-    "(x+b)-(x-b)": "x + b - (x - b)",
-    "Piecewise((0, 0 < x < b), (b, True))": "Piecewise((0, (x > 0) & (x < b)), (b, True))",
-    "Piecewise((0, (x < b or x > R) and x < k))": "Piecewise((0, ((x < b) | (x > R)) & (x < k)))",
-}
-
-
-@pytest.mark.parametrize("text", AS_PYTHON)
-def test_python_keeps_the_user_s_order(text: str) -> None:
-    code = AS_PYTHON[text]
-    assert code_of(tree_of(text))[0].replace(" ** ", "**") == code
-    assert sympy.sympify(computed(code)) == read(text)
 
 
 @settings(max_examples=40)
