@@ -9,7 +9,7 @@
     module_text    proven FormulaSheet        the text of a NumPy module
     demand_right   sheet and text             nothing, or NotProven: runs the text and compares
     package_files  texts of modules           the files of a package
-    publish        files, a directory         the directory, replaced as a whole
+    replace_folder files, a directory         the directory, replaced as a whole
     differences    files, a directory         the changes that would be made
 
     sheet_and_body  a name or a file          the proven sheet and a BuiltBody: the stages to here
@@ -35,10 +35,9 @@ from derive.codegen.publish import (
     differences,
     modules_in,
     package_files,
-    publish,
 )
-from derive.command.errors import BadOutput, BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
-from derive.command.folder import demand_replaceable
+from derive.command.errors import BadProfile, NeedsOutput, TwoOfOneName
+from derive.command.folder import demand_replaceable, replace_folder
 from derive.command.limit import DEFAULT
 from derive.command.processes import Bounds, Report, in_processes
 from derive.sheet.built import BuiltBody, by_form
@@ -190,8 +189,8 @@ class Order:
     folder: None for the package `generated`.
     writes: False if the directory is only compared.
 
-    Raises NeedsOutput for a file without a folder, InstalledPackage if there is no folder and
-    `generated` is an installed package, and BadOutput for a folder that cannot be replaced.
+    Raises NeedsOutput if there is no folder for a file, or `generated` is an installed package, and
+    BadTarget for a folder that cannot be replaced.
     """
 
     sources: tuple[str, ...] = ()
@@ -201,18 +200,22 @@ class Order:
     def __post_init__(self) -> None:
         if self.folder is not None:
             if self.writes:
-                demand_replaceable(self.folder, BadOutput)
+                demand_replaceable(self.folder)
             return
         for source in self.sources:
             if not is_in_library(source):
                 if not _is_file(source):
                     load_geometry(source)  # reports what is wrong; a file is never run here
-                raise NeedsOutput(source)
+                why = (
+                    "is not in the library, and the package `generated` contains only bodies of it"
+                )
+                raise NeedsOutput(source, why, f" {source}")
         installed = not (GENERATED.parent / "pyproject.toml").exists()
         if installed and self.writes:
-            raise InstalledPackage(str(GENERATED))
+            why = "belongs to an installed package and is not changed"
+            raise NeedsOutput(str(GENERATED), why, "".join(f" {s}" for s in self.sources))
         if self.writes:
-            demand_replaceable(GENERATED, BadOutput, self.kept)
+            demand_replaceable(GENERATED, self.kept)
 
     @property
     def target(self) -> Path:
@@ -247,7 +250,7 @@ class Order:
         files = self.files(bodies)
         found = differences(files, self.target, self.kept)
         if found:
-            publish(files, self.target, self.kept)
+            replace_folder(files, self.target, self.kept)
         return found
 
     def check(self, bodies: Iterable[BuiltBody]) -> list[Difference]:

@@ -937,10 +937,11 @@ def steady_cycle(
     Returns
     -------
     SteadyCycle
-        m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error.  Slip
-        range, shear traction and work are computed on elements, even where m and n are exact.
-        All are NaN if the contact is lost or slides; m and n are NaN if no point sticks
-        throughout the cycle.
+        m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error.  Shear
+        traction and work are computed on elements, even where m and n are exact.  So is slip_range
+        unless P and M are constant and the regime is MODERATE or LARGE.  No error is stated of what
+        is computed on elements other than m and n.  All are NaN if the contact is lost or slides;
+        m and n are NaN if no point sticks throughout the cycle.
 
     Raises
     ------

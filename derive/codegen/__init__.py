@@ -17,7 +17,7 @@ solved    the text of the functions that are solved numerically, from solved.txt
 languages the closed formulas in C, Fortran, JavaScript, Julia or MATLAB
 mark      the first line of every generated file
 trial     runs the printed module and compares its results with the sheet
-publish   compares a whole package with the one on disk, or replaces it
+publish   the files of a whole package, and how they differ from those on disk
 
 Besides NumPy, generated modules need only generated/runtime/, which is copied beside them.
 """

@@ -1,7 +1,7 @@
-"""Compares the files of a generated package with a directory, or replaces the directory.
+"""Makes the files of a generated package, and compares them with a directory.
 
 In:  the texts of the modules.
-Out: a list of differences, or the replaced directory.  It is replaced completely or not at all.
+Out: the texts of all files, or a list of differences.
 
 The hand-written library of every package, runtime/, stands in `generated`, where it is left alone.
 It is copied into other packages.
@@ -13,8 +13,8 @@ from difflib import unified_diff
 from pathlib import Path
 
 from derive.codegen.mark import MARK
-from derive.command.errors import BadOutput
-from derive.command.folder import entries, replace_folder, with_manifest
+from derive.command.errors import BadTarget
+from derive.command.folder import entries, with_manifest
 
 RUNTIME = "runtime"
 """The folder of the library."""
@@ -105,27 +105,16 @@ def _diff(name: str, path: Path, wanted: str) -> str:
     return "".join(lines)
 
 
-def publish(files: Files, folder: Path, kept: str = "") -> None:
-    """Replace `folder` by a package, completely or not at all.
-
-    kept: an entry that stays as it is.
-
-    Raises BadOutput if `folder` contains a file that was not generated, or was changed since, or
-    cannot be written.
-    """
-    replace_folder(files, folder, BadOutput, kept)
-
-
 def resolved(folder: Path) -> Path:
     """The directory to which a path leads, with all links resolved.
 
-    Raises BadOutput for a broken link, because the package would be created at its target, and for
+    Raises BadTarget for a broken link, because the package would be created at its target, and for
     a path that cannot exist.
     """
     try:
         for link in (folder, *folder.parents):
             if link.is_symlink() and not link.exists():
-                raise BadOutput(str(folder), f"leads through {link.name!r}, which is a broken link")
+                raise BadTarget(str(folder), f"leads through {link.name!r}, which is a broken link")
         return folder.resolve()
     except OSError as error:  # for example, the name is too long
-        raise BadOutput(str(folder), f"cannot be reached ({error.strerror})") from error
+        raise BadTarget(str(folder), f"cannot be reached ({error.strerror})") from error

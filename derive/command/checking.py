@@ -10,7 +10,6 @@ from derive.check.accept import accept, demand_writable
 from derive.check.claim import Paper
 from derive.check.draft import demand_new, draft, write
 from derive.check.userfile import built_in, open_readings, read_claims
-from derive.command.errors import UnknownClaim
 from derive.command.terminal import path_of, status
 
 _ALIKE = 8
@@ -78,5 +77,9 @@ def paper_of(file: Path | None, name: str | None) -> Paper:
     if not (chosen := source.called(name)):
         known = [claim.name for claim in source.claims]
         alike = get_close_matches(name, known, n=_ALIKE, cutoff=0.3) or known[:_ALIKE]
-        raise UnknownClaim(len(known), name, "; ".join(map(repr, alike)))
+        raise click.BadParameter(
+            f"none of the {len(known)} claims is named {name!r}; the most similar names are "
+            f"{'; '.join(map(repr, alike))}: give one of them, or list all with `derive check`",
+            param_hint="--explain",
+        )
     return replace(source, claims=chosen)

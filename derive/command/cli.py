@@ -135,20 +135,20 @@ def _show_pages(out: Path | None, limit: float) -> None:
     """Write the pages of the library with their index."""
     import derive.handbook  # noqa: F401 - reports a missing library at once
     from derive.body.library import library
-    from derive.command.folder import demand_pages, put_pages
+    from derive.command.folder import demand_replaceable, replace_folder, with_manifest
     from derive.command.processes import cores
     from derive.command.showing import page_of
     from derive.handbook.page import index_of
     from derive.pipeline import each_in_process
 
     folder, page_of_set = out or Path("handbook"), partial(page_of, index=True)
-    demand_pages(folder)
+    demand_replaceable(folder)
     with _progress(len(library())) as step:
         made = each_in_process(page_of_set, library(), step, cores(), limit)
     bodies, _, entries = zip(*made, strict=True)
     _remark_on(bodies)
     pages = {f"{body.name}.html": page for body, page, _ in made}
-    put_pages(pages | {"index.html": index_of(entries)}, folder)
+    replace_folder(with_manifest(pages | {"index.html": index_of(entries)}), folder)
     index = path_of((folder / "index.html").resolve())
     output(f"Wrote {index} and the pages of {len(bodies)} bodies")
 

@@ -5,8 +5,6 @@ message says what was given, what is wrong, what is allowed and what to do.  The
 only the message and exits with status 2.
 """
 
-import errno
-import os
 from inspect import Parameter, Signature
 from string import Formatter
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -50,19 +48,9 @@ class UserError(Exception):
 
     @property
     def message(self) -> str:
-        """The sentence with the facts of this mistake; a full disk has a remedy of its own."""
+        """The sentence with the facts of this mistake."""
         facts = {n: ", ".join(f) if isinstance(f, tuple) else f for n, f in vars(self).items()}
-        sentence = self.sentence
-        if _is_full(str(facts.get("why"))):
-            remedy = "the disk is full: free some space, then run the command again"
-            sentence = f"{sentence.partition('{why}')[0]}{{why}}; {remedy}"
-        return sentence.format_map(facts)
-
-
-def _is_full(why: str) -> bool:
-    """Whether the system refused to write because of a full disk, a quota or a limit on size."""
-    codes = (errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC))
-    return any(os.strerror(code) in why for code in codes)
+        return self.sentence.format_map(facts)
 
 
 class BadName(UserError):
@@ -157,45 +145,21 @@ class BadTable(UserError):
     """{given}: {why}; {remedy}"""
 
 
-class UnknownClaim(UserError):
-    """none of the {count} claims is named {given!r}; the most similar names are {alike}: give one
-    of them, or list all with `derive check`"""
-
-
 class BadOption(UserError):
     """{option} {given!r}: {why}; write {option} NAME=TEXT once for each parameter, such as {option}
     R={example}"""
 
 
-class BadLimit(UserError):
-    """--limit {given} is not a valid time: give the search for closed forms a finite number of
-    seconds above zero, such as --limit 20"""
-
-
-class BadPath(UserError):
-    """{given_as} {why}: give the path of a file or directory"""
-
-
 class BadTarget(UserError):
-    """{given} {why}; nothing was written: with --out, give an existing directory, or the path of a
-    new file that ends in .py"""
-
-
-class BadPage(UserError):
-    """{given} {why}; a path is written only if it does not exist or was made by `derive`: choose
-    another path with {option}"""
+    """{given} {why}; nothing was written: a path is written only if it does not exist or was made
+    by `derive`; choose another path with {option}"""
 
     option = "--out"
 
 
-class BadOutput(UserError):
-    """{given} {why}; a package is only written to a directory that does not exist, is empty, or was
-    made by `derive generate`: choose another directory with --out, or clear this one"""
-
-
 class NeedsOutput(UserError):
-    """{given} is not in the library, and the package `generated` contains only bodies of the
-    library: say where to write its module, as in `derive generate {given} --out my_package`"""
+    """{given} {why}: say where to write the modules, as in `derive generate{sources} --out
+    my_package`"""
 
 
 class TwoOfOneName(UserError):
@@ -209,11 +173,6 @@ class LostProcess(UserError):
 
 class RanAway(UserError):
     """{what}: the stage '{stage}' {why}: {remedy}"""
-
-
-class InstalledPackage(UserError):
-    """{given} belongs to an installed package and is not changed: say where to write the modules,
-    as in `derive generate --out my_package`"""
 
 
 class OtherRuntime(UserError):

@@ -10,18 +10,14 @@ import errno
 import os
 import secrets
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from functools import partial
 from pathlib import Path
 
-from derive.command.errors import BadPage, BadTarget, UserError
+from derive.command.errors import BadTarget
 
 MARK = '<meta name="generator" content="derive '
 """A tag in every page made by a command of this package; only such pages are replaced."""
-
-Refusal = Callable[[str, str], UserError]
-"""An error class, called with a path and with the reason, in words that follow its name."""
 
 
 class Unreadable(Exception):
@@ -96,13 +92,16 @@ def signals_held_back() -> Iterator[None]:
 
 
 @contextmanager
-def refused_as(refusal: Refusal, path: Path, what: str = "cannot be written") -> Iterator[None]:
-    """Raise `refusal` if the system does not allow what the block does with a path."""
+def refused(path: Path, option: str = "--out") -> Iterator[None]:
+    """Raise BadTarget if the system does not allow what the block does with a path.
+
+    option: the option that gave the path
+    """
     try:
         yield
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
-        raise refusal(str(path), f"{what} ({reason})") from error
+        raise BadTarget(str(path), f"cannot be written ({reason})", option) from error
 
 
 def write_whole(content: bytes, path: Path, mode: int = 0o644) -> None:
@@ -146,7 +145,7 @@ def place_of_geometry(name: str, out: Path | None) -> Path:
     Raises BadTarget if no new file can be created there.
     """
     folder = out if out is not None else Path()
-    with refused_as(BadTarget, folder):
+    with refused(folder):
         path = folder if folder.suffix == ".py" and not folder.is_dir() else folder / f"{name}.py"
         if os.path.lexists(path):
             raise BadTarget(str(path), "already exists")
@@ -158,11 +157,8 @@ def place_of_geometry(name: str, out: Path | None) -> Path:
 
 def write_geometry(path: Path, text: str) -> None:
     """Write the file of a new geometry; raises BadTarget."""
-    with refused_as(BadTarget, path):
-        try:
-            write_new(text.encode(), path)
-        except FileExistsError as error:
-            raise BadTarget(str(path), "already exists") from error
+    with refused(path):
+        write_new(text.encode(), path)
 
 
 def put_page(text: str, path: Path, option: str = "--out", mark: str = MARK) -> None:
@@ -170,22 +166,22 @@ def put_page(text: str, path: Path, option: str = "--out", mark: str = MARK) -> 
 
     option: the option that gave the path
 
-    Raises BadPage if the path must not be replaced or cannot be written.
+    Raises BadTarget if the path must not be replaced or cannot be written.
     """
     demand_page(path, option, mark)
-    with refused_as(partial(BadPage, option=option), path):
+    with refused(path, option):
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(text.encode(), path)
 
 
 def demand_page(path: Path, option: str = "--out", mark: str = MARK) -> None:
-    """Raise BadPage if `put_page` would not write this path; call this before a long task."""
-    with refused_as(partial(BadPage, option=option), path):
+    """Raise BadTarget if `put_page` would not write this path; call this before a long task."""
+    with refused(path, option):
         demand_writable(path)
     if path.is_dir():
-        raise BadPage(str(path), "is a directory", option)
+        raise BadTarget(str(path), "is a directory", option)
     if (path.exists() or path.is_symlink()) and not _has_mark(path, mark):
-        raise BadPage(str(path), "exists and was not made by `derive`", option)
+        raise BadTarget(str(path), "exists and was not made by `derive`", option)
 
 
 def _has_mark(path: Path, mark: str) -> bool:

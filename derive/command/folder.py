@@ -2,9 +2,8 @@
 
 In:  the texts of the files, by name; the first is their list, with their checksums, in the format
      of the command sha256sum.
-Out: the replaced directory; or an error, of the caller's class, and nothing has changed.  A file
-     that is not in the list of a directory or differs from it belongs to the user: nothing is
-     replaced.
+Out: the replaced directory; or BadTarget is raised, and nothing has changed.  A file that is not in
+     the list of a directory or differs from it belongs to the user: nothing is replaced.
 
 Ctrl-C and a request to end wait until everything is in place.  If the process is killed between the
 two steps, the old directory is left in the hidden directory next to its place.
@@ -17,8 +16,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from hashlib import sha256
 from pathlib import Path
 
-from derive.command.errors import BadPage
-from derive.command.files import Refusal, demand_writable, refused_as, signals_held_back
+from derive.command.errors import BadTarget
+from derive.command.files import demand_writable, refused, signals_held_back
 
 MANIFEST = "files.sha256"
 """The name of the list."""
@@ -37,20 +36,18 @@ def with_manifest(files: Mapping[str, str]) -> dict[str, str]:
     return {MANIFEST: "\n".join([*lines, ""]), **files}
 
 
-def replace_folder(
-    files: Mapping[str, str], folder: Path, refusal: Refusal, kept: str = ""
-) -> None:
+def replace_folder(files: Mapping[str, str], folder: Path, kept: str = "") -> None:
     """Replace a directory by these files, of which the first is their list.
 
     kept: an entry that stays as it is, in a directory whose files are under version control; else
         a written file that was changed later belongs to the user.
 
-    Raises `refusal` if the directory contains a file that belongs to the user, or cannot be
+    Raises BadTarget if the directory contains a file that belongs to the user, or cannot be
     written.
     """
-    demand_replaceable(folder, refusal, kept)
+    demand_replaceable(folder, kept)
     with signals_held_back():
-        with refused_as(refusal, folder):
+        with refused(folder):
             folder.parent.mkdir(parents=True, exist_ok=True)
             workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
         fresh, old = workshop / _FRESH, workshop / _PREVIOUS
@@ -68,35 +65,25 @@ def replace_folder(
             note = _put_back(old, folder)
             if isinstance(error, OSError):
                 why = f"cannot be replaced ({error.strerror}){note}"
-                raise refusal(str(folder), why) from error
+                raise BadTarget(str(folder), why) from error
             raise
         finally:
             if folder.exists() or not old.exists():
                 shutil.rmtree(workshop, ignore_errors=True)
 
 
-def demand_pages(folder: Path) -> None:
-    """Raise BadPage if `put_pages` would not write this directory."""
-    demand_replaceable(folder, BadPage)
-
-
-def put_pages(pages: Mapping[str, str], folder: Path) -> None:
-    """Replace a directory by pages, given by their file names; raises BadPage."""
-    replace_folder(with_manifest(pages), folder, BadPage)
-
-
-def demand_replaceable(folder: Path, refusal: Refusal, kept: str = "") -> None:
-    """Raise `refusal` unless `folder` can be created, is empty, or holds only files of a list."""
-    with refused_as(refusal, folder):
+def demand_replaceable(folder: Path, kept: str = "") -> None:
+    """Raise BadTarget unless `folder` can be created, is empty, or holds only files of a list."""
+    with refused(folder):
         demand_writable(folder)
     if not folder.exists() and not folder.is_symlink():
         return
     if folder.is_symlink() or not folder.is_dir():
-        raise refusal(str(folder), "is not a directory")
+        raise BadTarget(str(folder), "is not a directory")
     if stranger := _not_written(folder, kept):
-        raise refusal(str(folder), f"contains {stranger}")
+        raise BadTarget(str(folder), f"contains {stranger}")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
-        raise refusal(str(folder), "is the current directory or contains it")
+        raise BadTarget(str(folder), "is the current directory or contains it")
 
 
 def _put_back(old: Path, folder: Path) -> str:

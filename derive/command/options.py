@@ -6,7 +6,6 @@ from pathlib import Path
 
 import click
 
-from derive.command.errors import BadLimit, BadPath
 from derive.command.limit import DEFAULT
 
 
@@ -19,10 +18,8 @@ class _Path(click.ParamType):
         self, value: str, param: click.Parameter | None, context: click.Context | None
     ) -> Path:
         if not value or any(unicodedata.category(character) == "Cc" for character in value):
-            is_option = isinstance(param, click.Option)
-            assert param is not None
-            why = f"{value!a} contains a control character" if value else "is an empty path"
-            raise BadPath(param.opts[0] if is_option else param.human_readable_name, why)
+            why = f"{value!a} contains a control character" if value else "it is empty"
+            self.fail(f"{why}: give the path of a file or directory", param, context)
         return Path(value)
 
 
@@ -30,9 +27,9 @@ PATH = _Path()
 
 
 def _time(context: click.Context, option: click.Parameter, seconds: float) -> float:
-    """Return the seconds; raise BadLimit if they are not a valid time limit."""
+    """Return the seconds, a finite number above zero."""
     if not 0 < seconds < inf:
-        raise BadLimit(f"{seconds:g}")
+        raise click.BadParameter(f"{seconds:g} is not a valid time, such as 20", context, option)
     return seconds
 
 

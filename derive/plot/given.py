@@ -98,7 +98,7 @@ def positions_of(history: Any, x: Array) -> Array:
     """The positions x; demand one history with shear and slip at these positions."""
     x = row("x", x)
     shape = np.size(getattr(history, "a", ())), x.size
-    if np.shape(getattr(history, "slip", None)) != shape or not np.any(np.isfinite(history.a)):
+    if np.shape(getattr(history, "slip", ())) != shape or not np.any(np.isfinite(history.a)):
         raise ValueError(
             f"history is {history!r:.60}, which is not a single History in contact with slip at "
             f"the {x.size} positions of x; give a result of `history` for the same x"

@@ -68,7 +68,7 @@ class _Picture:
             raise ValueError(f"the body cannot carry {largest}; give other largest loads")
         self.reach = 1.04 * float(np.nanmax([farthest.a, farthest.c]))
         mean = largest.P / float(np.nanmin(farthest.a + farthest.c))
-        self.units = {"length": unit(self.reach, "m"), "stress": unit(mean, "Pa")}
+        self.units: dict[str, Any] = {"length": unit(self.reach, "m"), "stress": unit(mean, "Pa")}
         with style():
             self.figure = Figure(figsize=(8.4, 4.8), dpi=200)
             self.figure.set_layout_engine("none")  # because computing a new layout takes long

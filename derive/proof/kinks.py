@@ -3,7 +3,7 @@
 A switch of an expression is another expression at whose zeros this may happen.
 
 switches    the switches of an expression
-places      the zeros of the switches along one variable, as functions of all other symbols
+places      the switches along one variable, and where a peak may be
 """
 
 from collections.abc import Iterator
@@ -14,26 +14,18 @@ from sympy import (
     Expr,
     Integral,
     Mul,
-    Poly,
     Pow,
     Symbol,
     atan2,
     cosh,
     exp,
-    fraction,
-    resultant,
     tan,
-    together,
 )
 from sympy.core.relational import Relational
 
 from derive.reading.words import FUNCTIONS
 
 _SWITCHES = {each.of_sympy: each.switches for each in FUNCTIONS.values()}
-_HIGHEST = 8
-"""The highest degree of a polynomial whose roots are computed directly."""
-_ROOTS = 2
-"""The largest number of square roots that are removed by squaring, one after the other."""
 
 
 @dataclass(frozen=True)
@@ -90,35 +82,18 @@ def is_unbounded(expr: Expr, variable: Symbol) -> bool:
 # ------------------------------------------------------------------ zeros along one variable
 
 
-@dataclass(frozen=True)
-class Place:
-    """The zeros of one switch along a variable.
-
-    of            the expression of the switch
-    kind          the kind of the switch, or peak: smooth, but with rapid changes
-    coefficients  coefficients of polynomials whose zeros include all zeros of the switch; empty
-                  if no such polynomials are known
-    """
-
-    of: Expr
-    kind: str
-    coefficients: tuple[tuple[Expr, ...], ...]
-
-
 @cache
-def places(expr: Expr, variable: Symbol) -> tuple[Place, ...]:
-    """Return where along a variable an integrand may not be smooth, or may peak."""
-    found: dict[tuple[Expr, str], Place] = {}
-    for switch in switches(expr):
-        if switch.of.has(variable):
-            polynomials = _polynomials(switch.of, variable, _ROOTS)
-            found[switch.of, switch.kind] = Place(switch.of, switch.kind, polynomials)
+def places(expr: Expr, variable: Symbol) -> tuple[Switch, ...]:
+    """Return where along a variable an integrand may not be smooth, or may peak.
+
+    It may peak where an exponent or a divisor is stationary: smooth, but with rapid changes.
+    """
+    found = {switch for switch in switches(expr) if switch.of.has(variable)}
     for inner in peaked(expr):
-        if inner.has(variable) and inner.is_polynomial(variable):
-            slope = inner.diff(variable)
-            if slope.has(variable):
-                found[inner, "peak"] = Place(slope, "peak", _polynomials(slope, variable, 0))
-    return tuple(found[key] for key in sorted(found, key=str))
+        slope = inner.diff(variable)
+        if inner.is_polynomial(variable) and slope.has(variable):
+            found.add(Switch(slope, "peak"))
+    return tuple(sorted(found, key=str))
 
 
 def peaked(expr: Expr) -> Iterator[Expr]:
@@ -131,37 +106,3 @@ def peaked(expr: Expr) -> Iterator[Expr]:
                 yield node.exp
         else:
             yield node.args[0]
-
-
-def _polynomials(expr: Expr, variable: Symbol, roots: int) -> tuple[tuple[Expr, ...], ...]:
-    """Return coefficients of polynomials whose zeros include those of `expr`."""
-    numerator = fraction(together(expr))[0]
-    found = []
-    for factor in Mul.make_args(numerator):
-        base = factor.base if isinstance(factor, Pow) else factor
-        if not base.has(variable):
-            continue
-        if base.is_polynomial(variable):
-            coefficients = tuple(Poly(base, variable).all_coeffs())
-            if len(coefficients) > _HIGHEST + 1:
-                return ()
-            found.append(coefficients)
-            continue
-        inner = _squared(base, variable) if roots else None
-        more = _polynomials(inner, variable, roots - 1) if inner is not None else ()
-        if not more:
-            return ()
-        found += more
-    return tuple(found)
-
-
-def _squared(expr: Expr, variable: Symbol) -> Expr | None:
-    """Return p**2 - q**2 w for an expression p + q sqrt(w), where w is the first radicand."""
-    held = [n for n in expr.atoms(Pow) if n.has(variable) and n.exp.is_Rational and n.exp.q == 2]
-    if not held:
-        return None
-    stand_in = Symbol("root")
-    base = min((n.base for n in held), key=str)
-    table = {n: stand_in ** (2 * n.exp) for n in held if n.base == base}
-    rest = fraction(together(expr.xreplace(table)))[0]
-    return resultant(rest, stand_in**2 - base, stand_in) if rest.is_polynomial(stand_in) else None

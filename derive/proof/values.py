@@ -7,7 +7,7 @@ An expression becomes a list of steps on balls.  If rounding or cancellation lea
 of the value, the steps are repeated with more of them.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache, lru_cache
 from itertools import pairwise
 from typing import Any
@@ -17,6 +17,8 @@ from flint import acb, arb, ctx
 from mpmath import mpc, mpf
 from sympy import (
     Basic,
+    Derivative,
+    DiracDelta,
     Expr,
     Float,
     I,
@@ -48,7 +50,7 @@ from derive.proof.balls import (
     power,
     root,
 )
-from derive.proof.kinks import Place, is_unbounded, places
+from derive.proof.kinks import is_unbounded, places
 from derive.proof.rule import checked, integral
 
 Numbers = Mapping[Symbol, Any]
@@ -66,8 +68,8 @@ _ATTEMPTS = (1, 2, 4)
 """Multiples of the working digits that are tried until enough digits are certain."""
 _FARTHEST = 2**20
 """The largest magnitude of the binary exponent of a value."""
-_LOOKED_AT = 257
-"""Number of points at which the sign of a switch is sampled if its zeros are not known."""
+_LOOKED_AT = 3000
+"""Largest number of intervals that are searched for the zeros of a switch."""
 _NEAR = (mpf(10) ** -9, mpf(10) ** -13)
 """Distances from a cut, relative to the part, at which the growth towards it is measured."""
 _STEEPEST = 0.97
@@ -323,9 +325,9 @@ def _computed(
 def _cuts(start: mpf, end: mpf, known: list[tuple[mpf, str]]) -> dict[mpf, set[str]]:
     """Both ends and all points between them, each with the kinds of what happens there.
 
-    Points that agree to two thirds of the working digits are one.
+    Points that agree to a third of the working digits are one.
     """
-    close = (end - start) * mpf(10) ** (-2 * mpmath.mp.dps // 3)
+    close = (end - start) * mpf(10) ** (-mpmath.mp.dps // 3)
     cuts: dict[mpf, set[str]] = {start: set(), end: set()}
     for position, kind in known:
         if start - close <= position <= end + close:
@@ -360,61 +362,47 @@ def _demand_no_pole(along: Function, cuts: Mapping[mpf, set[str]], variable: Sym
 def _zeros(
     inside: Expr, variable: Symbol, numbers: Numbers, start: mpf, end: mpf
 ) -> list[tuple[mpf, str]]:
-    """Points between the ends where the integrand may not be smooth."""
-    zeros = []
-    for place in places(inside, variable):
-        if place.coefficients:
-            for coefficients in place.coefficients:
-                values = [number(program(each)(numbers)) for each in coefficients]
-                zeros += [(zero, place.kind) for zero in _roots(values)]
+    """Points between the ends where the integrand may not be smooth, each with its kind."""
+    return [
+        (zero, switch.kind)
+        for switch in places(inside, variable)
+        for zero in _zeros_of(switch.of, variable, numbers, start, end)
+    ]
+
+
+def _zeros_of(of: Expr, variable: Symbol, numbers: Numbers, start: mpf, end: mpf) -> Iterator[mpf]:
+    """Zeros between the ends: intervals without one are dropped, others are made smaller.
+
+    Newton's step makes an interval smaller where the rate has one sign in it; else it is halved.
+    Zeros of what contains an integral are not looked for.
+    """
+    if of.has(Integral):
+        return
+    slope = of.diff(variable)
+    rates = nan if slope.has(Derivative, DiracDelta) else slope
+    value, rate = (program(each, variable).function(numbers) for each in (of, rates))
+    whole = arb(start).union(arb(end))
+    enough = whole.rad() * arb(10) ** (-mpmath.mp.dps // 2)
+    held = [whole]
+    for _ in range(_LOOKED_AT):
+        if not held:
+            return
+        within = held.pop()
+        found = value(within)
+        if found.is_finite() and not found.contains(0):
+            continue
+        middle, radius = within.mid(), within.rad()
+        stepped = middle - value(middle) / rate(within)
+        if isinstance(stepped, arb) and stepped.is_finite():
+            if not within.overlaps(stepped):
+                continue
+            if stepped.rad() <= enough:
+                yield number(stepped)
+                continue
+            if stepped.rad() < radius / 4:
+                held.append(stepped)
+                continue
+        if radius <= enough:
+            yield number(middle)
         else:
-            zeros += [(z, place.kind) for z in _looked_for(place, variable, numbers, start, end)]
-    return zeros
-
-
-def _roots(coefficients: list[Value]) -> list[mpf]:
-    """The real roots of a polynomial, including both roots of a nearly real pair."""
-    while coefficients and coefficients[0] == 0:
-        coefficients = coefficients[1:]
-    if any(isinstance(value, mpc) for value in coefficients) or len(coefficients) < 2:
-        return []
-    if len(coefficients) == 2:
-        return [-coefficients[1] / coefficients[0]]
-    if len(coefficients) == 3:
-        return _of_square(*coefficients)
-    try:
-        roots = mpmath.polyroots(coefficients, maxsteps=200, extraprec=2 * mpmath.mp.prec)
-    except mpmath.libmp.NoConvergence:
-        raise Undecided("the points where an integrand is not smooth are not known") from None
-    near = mpf(10) ** (-mpmath.mp.dps // 4) * max(map(abs, roots))
-    return [mpmath.re(each) for each in roots if abs(mpmath.im(each)) <= near]
-
-
-def _of_square(first: mpf, second: mpf, third: mpf) -> list[mpf]:
-    under = second**2 - 4 * first * third
-    if under < -(second**2) * mpf(10) ** (-mpmath.mp.dps // 2):
-        return []
-    larger = -(second + mpmath.sign(second or 1) * mpmath.sqrt(max(under, mpf(0)))) / 2
-    return [larger / first, third / larger] if larger != 0 else [mpf(0)]
-
-
-def _looked_for(
-    place: Place, variable: Symbol, numbers: Numbers, start: mpf, end: mpf
-) -> list[mpf]:
-    """Points where a switch changes its sign, between neighbouring points of a grid."""
-    along = program(place.of, variable).function(numbers)
-    grid = [start + (end - start) * n / (_LOOKED_AT - 1) for n in range(_LOOKED_AT)]
-    with digits(15):
-        signs = [mpmath.sign(mpmath.re(number(along(ball(at))))) for at in grid]
-    zeros = [at for at, sign in zip(grid, signs, strict=True) if sign == 0]
-    for (low, one), (high, other) in pairwise(zip(grid, signs, strict=True)):
-        if one * other < 0:
-            zeros.append(
-                mpmath.findroot(
-                    lambda at: number(along(ball(at))),
-                    (low, high),
-                    solver="anderson",
-                    verify=False,
-                )
-            )
-    return zeros
+            held += [arb(middle + side * radius / 2, radius / 2) for side in (-1, 1)]

@@ -183,6 +183,28 @@ def test_the_second_window_begins_where_the_large_zone_gets_too_narrow() -> None
         assert np.max(steps) <= 1.5 * np.min(steps)
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_just_beyond_the_moderate_zone_the_zone_is_still_nearly_that(sign: int) -> None:
+    """Series fail there.  The moderate zone is the contact under P - dQ/(2 f) at a changed tilt; it
+    ends where its distance from the edge that tension loads more is 8 dQ/(pi dsigma)."""
+    law, dQ = {"E_star": 1.0, "phi": 1.0}, 0.5
+    here = wedge.contact(1.0, 0.05 * sign, **law)
+
+    def moderate(change: float) -> Contact:
+        return wedge.contact_at_tilt(0.5, here.alpha - sign * change / 2, **law)
+
+    def beyond(change: float) -> float:
+        a, n = (here.a, moderate(change).c) if sign > 0 else (here.c, moderate(change).a)
+        return float(a + n - 8 * dQ / (np.pi * change))
+
+    end = brentq(beyond, 0.3, 1.5, xtol=1e-15)
+    at_end = moderate(end)
+    for part in (1e-6, 1e-5):
+        found = wedge.stick_zone(here, here, dQ, sign * end * (1 + part), f=0.5, **law, mixed=True)
+        assert found.regime == Regime.MIXED
+        assert_allclose(found[:2], at_end[:2], atol=5 * part)
+
+
 def test_varying_loads_stay_unknown() -> None:
     first, second = (Contact(a, 1.25, 0.0) for a in (1.5, 1.52))
     _, shear, change = cycle("wedge", 1.5, 1.25, 0.2, 1.05)

@@ -5,6 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 
+from generated.runtime.history import refine
 from generated.runtime.types import Regime
 from tests.measure.accuracy.histories import (
     CASES,
@@ -131,17 +132,18 @@ def test_first_loadings_under_large_tension_are_half_of_a_steady_half_cycle(name
     assert len(ratio) > 8 and np.mean(np.array(ratio) < 1) >= 0.95
 
 
-@pytest.mark.parametrize(("dQ", "dsigma"), [(0.1, -0.9), (0.3, 0.1)])
+@pytest.mark.parametrize(("dQ", "dsigma"), [(0.1, -0.9), (0.3, 0.1), (0.01, 1.5)])
 def test_the_slip_range_of_a_steady_cycle_is_that_of_the_exact_zones(dQ, dsigma):
     case, P, M = CASES["flat_rounded"], 1.0, -0.05
     here = case.module.contact(P, M, E_star=1.0, **case.own)
     x = -here.a + np.linspace(0.02, 0.98, 31) * (here.a + here.c)
-    for tol in (1e-2, 1e-3):
-        found = case.module.steady_cycle(
-            P, M, [dQ, 0.0, dQ], [dsigma, 0.0, dsigma], x=x, tol=tol, **case.constants
-        )
-        exact = case.module.slip_range(x, here, here, dQ, dsigma, **case.constants)
-        assert np.all(abs(found.slip_range - exact) <= 0.02 * np.max(exact))
+    part = np.array([0.5, 1.5, 1.2, 0.7])
+    found = case.module.steady_cycle(P, M, dQ * part, dsigma * part, x=x, **case.constants)
+    exact = case.module.slip_range(x, here, here, dQ, dsigma, **case.constants)
+    assert np.max(abs(found.slip_range - exact)) <= 1e-12 * np.max(exact)
+    rows = np.array(np.broadcast_arrays(P, M, dQ * part, dsigma * part))[:, [0, 1, 2, 3, 0]]
+    on_mesh = refine.steady_cycle(case.module._BODY, case.own, F, rows, x, 1e-2).slip_range
+    assert np.max(abs(on_mesh - exact)) <= 0.02 * np.max(exact)
 
 
 def contraction(case, loads):
@@ -166,17 +168,14 @@ def test_two_histories_under_the_same_loads_never_separate(body):
     assert contraction(CASES[body], loads) < 0.02
 
 
-@pytest.mark.parametrize(
-    "tol", [pytest.param(1e-4, marks=pytest.mark.thorough), pytest.param(1e-5)]
-)
-def test_slip_that_recedes_towards_an_edge_is_solved_on_fine_meshes(tol):
+def test_slip_that_recedes_towards_an_edge_is_solved_on_fine_meshes():
     """The stick interval ends close to the edge, where elements are small for both reasons."""
     case = CASES["wedge"]
     found, plain = (
         case.module.history([1.04], [0.067], [-0.226], [-0.404], tol=t, **case.constants)
-        for t in (tol, 1e-3)
+        for t in (1e-5, 1e-3)
     )
     h = found.a + found.c
     assert 0.99 < found.n / found.c < 0.999
-    assert found.error < 0.1 * plain.error
+    assert found.error < 2e-4 and plain.error < 2e-3
     assert max(abs(found.m - plain.m), abs(found.n - plain.n)) / h < plain.error

@@ -33,47 +33,66 @@ MAX_EXCHANGES = 30
 """Iterations in which all elements may change their status at once."""
 
 
-def nearest(mesh: Elements, trial: Array, bound: Array, status: Array) -> Any:
-    """The shear traction, v, and the status, beginning with a guess of the status.
+class Solver:
+    """Solves load steps on a mesh.
 
-    Returns None if no solution is found.
+    It keeps the last factor, because a step begins with the status at the end of the step before.
     """
-    A, K, w = mesh.influence, mesh.stiffness, mesh.widths
-    apart, largest = bound == 0, np.max(bound)
-    status = np.where(apart, 0.0, status)
-    for iteration in range(MAX_EXCHANGES + 10 * w.size):
-        slips, limit = apart | (status != 0), status * bound
-        if np.all(slips):
-            # all slip and do not carry Q: the first element sticks whose slip would turn round
-            side = np.sign(w @ (limit - trial))
-            first = np.argmin(np.where(status == side, -side * (A @ (limit - trial)) / w, np.inf))
-            status[first], slips[first], limit[first] = 0.0, False, 0.0
-        if 2 * np.count_nonzero(slips) <= w.size:
-            chosen = np.flatnonzero(slips)
-            v = np.zeros(w.size)
-            v[chosen] = _solved(K[chosen[:, None], chosen], (trial - limit)[chosen])
-            q = np.where(slips, limit, trial - K @ v)
-        else:
-            chosen = np.flatnonzero(~slips)
-            change = np.where(slips, limit - trial, 0.0)
-            right = np.column_stack([(A @ change)[chosen], w[chosen]])
-            known, even = _solved(A[chosen[:, None], chosen], right).T
-            mu = (w[chosen] @ known - w @ change) / (w[chosen] @ even)
-            change[chosen] = mu * even - known
-            q, v = trial + change, np.where(slips, mu * w - A @ change, 0.0)
-        released = (status != 0) & (status * v < -ROUNDING * np.max(abs(v)))
-        beyond = ~slips & (abs(q) > bound + ROUNDING * largest)
-        wrong = np.flatnonzero(released | beyond)
-        if wrong.size == 0:
-            return q, v, status
-        if iteration >= MAX_EXCHANGES:
-            wrong = wrong[:1]
-        status[wrong] = np.where(beyond, np.sign(q), 0.0)[wrong]
-    return None
 
+    def __init__(self, mesh: Elements) -> None:
+        self.mesh = mesh
+        self._of: tuple[Any, Array] = None, np.empty(0)
+        self._factor = np.empty((0, 0))
 
-def _solved(matrix: Array, right: Array) -> Array:
-    """The solution of a system with a symmetric positive definite matrix, which is overwritten."""
-    from scipy.linalg.lapack import dposv
+    def nearest(self, trial: Array, bound: Array, status: Array) -> Any:
+        """The shear traction, v, and the status, beginning with a guess of the status.
 
-    return dposv(matrix.T, right, overwrite_a=True)[1] if right.size else right
+        Returns None if no solution is found.
+        """
+        A, K, w = self.mesh.influence, self.mesh.stiffness, self.mesh.widths
+        apart, most = bound == 0, bound + ROUNDING * bound.max()
+        status = np.where(apart, 0.0, status)
+        for iteration in range(MAX_EXCHANGES + 10 * w.size):
+            slips, limit = apart | (status != 0), status * bound
+            sticks = ~slips
+            chosen = sticks.nonzero()[0]
+            if chosen.size == 0:
+                # all slip and do not carry Q: the first sticks whose slip would turn round
+                side = np.sign(w @ (limit - trial))
+                turns = np.where(status == side, -side * (A @ (limit - trial)) / w, np.inf)
+                chosen = np.array([turns.argmin()])
+                status[chosen], slips[chosen], limit[chosen], sticks[chosen] = 0.0, False, 0.0, True
+            if 2 * chosen.size >= w.size:
+                chosen, v = slips.nonzero()[0], np.zeros(w.size)
+                v[chosen] = self._solved(K, chosen, (trial - limit)[chosen])
+                q = trial - K @ v
+                q[chosen] = limit[chosen]
+            else:
+                change = np.where(slips, limit - trial, 0.0)
+                right = np.array([(A @ change)[chosen], w[chosen]])
+                known, even = self._solved(A, chosen, right.T).T
+                mu = (right[1] @ known - w @ change) / (right[1] @ even)
+                change[chosen] = mu * even - known
+                q, v = trial + change, mu * w - A @ change
+                v[chosen] = 0.0
+            released = status * v < -ROUNDING * abs(v).max()
+            beyond = sticks & (abs(q) > most)
+            wrong = (released | beyond).nonzero()[0]
+            if wrong.size == 0:
+                return q, v, status
+            if iteration >= MAX_EXCHANGES:
+                wrong = wrong[:1]
+            status[wrong] = np.where(beyond, np.sign(q), 0.0)[wrong]
+        return None
+
+    def _solved(self, matrix: Array, chosen: Array, right: Array) -> Array:
+        """The solution for the chosen rows and columns of a symmetric positive definite matrix."""
+        from scipy.linalg.lapack import dpotrf, dpotrs
+
+        if chosen.size == 0:
+            return right
+        if not (matrix is self._of[0] and np.array_equal(chosen, self._of[1])):
+            self._of = matrix, chosen
+            rows = matrix.take(chosen, 0).take(chosen, 1).T
+            self._factor = dpotrf(rows, clean=False, overwrite_a=True)[0]
+        return dpotrs(self._factor, right)[0]

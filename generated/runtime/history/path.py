@@ -1,11 +1,11 @@
 """The loads and contacts of a history step by step; between two instants all loads vary linearly.
 
-Steps are so short that no edge moves farther than `reach` times the widest contact, and a step ends
-wherever |Q| reaches f P or falls below it.  Where the contact becomes four times as wide, or a
-quarter as wide, between two instants, steps are shorter next to the narrower contact.  The contact
-before a loss of contact is small.  So is the first one after it, or it is that of a flat body under
-a small load.  If there is neither, because the contact approaches from a great distance, its shear
-traction is not known, and Q is NaN there.
+Steps are so short that no edge moves farther than `reach` times the widest contact, and that Q and
+sigma change accordingly (SHEAR).  A step ends where |Q| reaches f P or falls below it.  Where the
+contact becomes four times as wide, or a quarter as wide, between two instants, steps are shorter
+next to the narrower contact.  The contact before a loss of contact is small.  So is the first one
+after it, or it is that of a flat body under a small load.  If there is neither, because the contact
+approaches from a great distance, its shear traction is not known, and Q is NaN there.
 """
 
 import math
@@ -21,6 +21,10 @@ SMALL = 0.02
 """Width of the last contact before a loss and of the first after it, relative to that at the
 previous and the next instant.  A flat body begins with a wide contact, under less than the square
 of this fraction of the load at the next instant."""
+
+SHEAR = 4.0
+"""Largest change in Q/(f P) in a step, and in h sigma/(8 f P), relative to the largest motion of an
+edge."""
 
 LAST = 0.01
 """Length of the last step before an instant relative to the others.  The stick zone of the instant
@@ -45,33 +49,28 @@ def touching(body: Body, own: Own, P: Array, M: Array) -> tuple[Array, Array]:
     return found.a, found.c
 
 
-def path(
-    body: Body, own: Own, f: float, loads: Array, reach: float, least: int, short_end: bool
-) -> Path:
+def path(body: Body, own: Own, f: float, loads: Array, reach: float, short_end: bool) -> Path:
     """The path; its first row is the contact at the first instant without shear.
 
     loads: P, M, Q and sigma, one row each.
-    least: smallest number of steps between two instants.
     short_end: whether the last step before an instant is short.
     """
+    loads = np.hstack([loads[:, :1] * [[1.0], [1.0], [0.0], [0.0]], loads])
     a, c = touching(body, own, *loads[:2])
     widest = np.max(np.nan_to_num(a + c))
-    parts = np.linspace(0, 1, least + 1)
-    pieces = [loads[:, :1] * np.where([[False], [False], [True], [True]], parts, 1.0)]
-    unknown = [np.zeros(least + 1, dtype=bool)]
+    pieces, unknown = [loads[:, :1]], [False]
     for k in range(1, loads.shape[1]):
         ends = _Way(body, own, loads[:, k - 1 : k + 1], a[k - 1 : k + 1], c[k - 1 : k + 1], widest)
-        t = ends.fractions(f, reach, least, short_end)
+        t = ends.fractions(f, reach, short_end)
         pieces.append(_between(loads[:, k - 1, None], loads[:, k, None], t))
-        unknown.append(np.zeros(t.size, dtype=bool))
-        unknown[-1][0] = ends.begins_far_away(t[0])
+        unknown += [ends.begins_far_away(t[0])] + [False] * (t.size - 1)
     last = np.cumsum([piece.shape[1] for piece in pieces]) - 1
     rows = np.hstack(pieces)
     rows[:, last] = loads
-    rows[2, np.concatenate(unknown)] = np.nan
+    rows[2, unknown] = np.nan
     edges = touching(body, own, rows[0], rows[1])
     instant = np.full(rows.shape[1], -1)
-    instant[last] = np.arange(last.size)
+    instant[last[1:]] = np.arange(last.size - 1)
     P, M, Q, sigma = rows
     return Path(P, M, Q, sigma, *edges, instant)
 
@@ -91,19 +90,22 @@ class _Way(NamedTuple):
     c: Array
     widest: float
 
-    def fractions(self, f: float, reach: float, least: int, short_end: bool) -> Array:
+    def fractions(self, f: float, reach: float, short_end: bool) -> Array:
         """The fractions of the way at which steps end, the last one being 1."""
-        narrow, wide = sorted(np.nan_to_num(self.a + self.c))
+        narrow, wide = sorted(width if width > 0 else 0.0 for width in self.a + self.c)
         if wide == 0:
             return np.ones(1)
         moved = wide
         if narrow > 0:
-            moved = max(abs(np.diff(self.a)[0]), abs(np.diff(self.c)[0]))
+            moved = max(abs(self.a[1] - self.a[0]), abs(self.c[1] - self.c[0]))
         uneven = 4 * narrow < wide
-        count = max(least, math.ceil((2 if uneven else 1) * moved / (reach * self.widest)))
+        P, _, Q, sigma = self.loads
+        shear = max(abs(Q[1] - Q[0]), wide * abs(sigma[1] - sigma[0]) / 8) / (f * max(P))
+        change = max((2 if uneven else 1) * moved / self.widest, shear / SHEAR)
+        count = max(1, math.ceil(change / reach)) if change < math.inf else 1
         t = np.arange(count + 1) / count
         if short_end:
-            t = np.insert(t, count, 1 - LAST / count)
+            t = np.concatenate([t[:-1], [1 - LAST / count, 1.0]])
         widens = self.a[1] + self.c[1] == wide
         if uneven:
             t = t**2 if widens else 1 - (1 - t) ** 2

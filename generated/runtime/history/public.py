@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import Numbers, numbers_of, shape_of
 from ..body import Body
 from ..chunks import any_lazy, over_chunks
-from ..cycle import Own, march
+from ..cycle import Own, contact, march, slip_range
 from ..types import Array, History, Regime, SteadyCycle, StickZone, Values
 from . import refine
 from .loops import stick_zone_of_loop
@@ -220,7 +220,20 @@ def _cycle(
     found = found._replace(slip_range=found.slip_range[:-1], q=found.q[:-1])
     if math.isnan(m) or not confirmed:
         return found
-    return found._replace(m=m, n=n, regime=regime, error=zones[1][at])
+    found = found._replace(m=m, n=n, regime=regime, error=zones[1][at])
+    in_phase = np.ptp(loads[0]) == np.ptp(loads[1]) == 0
+    if x.size and in_phase and regime in (Regime.MODERATE, Regime.LARGE):
+        found = found._replace(slip_range=_exact_range(body, own, f, loads, x))
+    return found
+
+
+def _exact_range(body: Body, own: Own, f: float, loads: Array, x: Array) -> Array:
+    """The slip range of a half-cycle in phase, under constant normal loads."""
+    here = contact(body, own, loads[0, 0], loads[1, 0], 1.0)
+    varies = 2 if np.ptp(loads[2]) > np.ptp(loads[3]) * (here.a + here.c) else 3
+    change = loads[2:, np.argmax(loads[varies])] - loads[2:, np.argmin(loads[varies])]
+    dQ, dsigma = change if change[0] >= 0 else -change
+    return slip_range(body, own, x, here, here, dQ, dsigma, f, 1.0)
 
 
 def _exact(body: Body, own: tuple[str, ...], numbers: Numbers) -> tuple[StickZone, Array]:

@@ -1,8 +1,8 @@
 r"""Histories and steady cycles on successively finer meshes, with an estimate of the error.
 
-Each mesh has twice as many elements as the one before, and twice as many steps.  It is refined
-towards the kinks of the profile, the edges of the contact at the instants, and the ends of the
-stick zones that were found on the mesh before.  The refinement ends when the estimated error is
+Each mesh has twice as many elements as the one before, and its steps are half as long.  It is
+refined towards the kinks of the profile, the edges of the contact at the instants, and the ends of
+the stick zones that were found on the mesh before.  The refinement ends when the estimated error is
 below the tolerance, or with the finest mesh.
 
 The estimated error is SAFETY times the difference between the last two meshes, which exceeds the
@@ -30,10 +30,9 @@ from .steps import Interface
 from .zones import permanent, sticking
 
 FEWEST = 64
-"""Elements of the first mesh.  With k times as many, at least k steps are taken from one instant to
-the next."""
+"""Elements of the first mesh."""
 
-REACH = 8.0
+REACH = 3.0
 """Largest motion of an edge in a step, relative to the contact width, times the number of
 elements."""
 
@@ -148,7 +147,7 @@ def _history_on(
     body: Body, own: Own, f: float, loads: Array, x: Array, count: int, coarse: _Found | None
 ) -> _Found:
     """The history on one mesh."""
-    way = path(body, own, f, loads, REACH / count, count // FEWEST, True)
+    way = path(body, own, f, loads, REACH / count, coarse is not None)
     mesh = _elements(body, own, way, coarse, count)
     interface, instants = Interface(body, own, f, way, mesh), loads.shape[1]
     m, n, between = np.full((3, instants), np.nan)
@@ -207,8 +206,8 @@ def _cycle_on(
     body: Body, own: Own, f: float, loads: Array, x: Array, count: int, coarse: _Found | None
 ) -> _Found:
     """The steady cycle on one mesh."""
-    least = count // FEWEST  # the first steps apply the loads of the first instant
-    way = path(body, own, f, loads, REACH / count, least, False)
+    way = path(body, own, f, loads, REACH / count, False)
+    least = int(np.argmax(way.instant == 0))  # the first steps apply the loads of the first instant
     mesh = _elements(body, own, way, coarse, count)
     interface, always = Interface(body, own, f, way, mesh), np.ones(count, dtype=bool)
     before, drift, nan = np.zeros(count), math.inf, math.nan

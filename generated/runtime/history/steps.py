@@ -19,7 +19,7 @@ from ..body import Body
 from ..cycle import Own
 from ..types import Array, Regime
 from .elements import Elements, full_stick, mean_pressures
-from .nearest import ROUNDING, nearest
+from .nearest import ROUNDING, Solver
 from .path import Path
 
 
@@ -35,33 +35,48 @@ class Interface:
 
     def __init__(self, body: Body, own: Own, f: float, path: Path, mesh: Elements) -> None:
         self.body, self.own, self.f, self.path, self.mesh = body, own, f, path, mesh
+        self._solver = Solver(mesh)
         self.shear, self.status, self.slip, self.work = np.zeros((4, mesh.widths.size))
         self._prepare(0)
         self.bound = self._bounds[0]
 
     def _prepare(self, first: int) -> None:
-        """Compute f p and the full-stick changes for a block of rows from `first` on."""
-        rows = Path(*(v[first : first + 512] for v in self.path))
-        self._first, self._bounds = first, np.zeros((rows.a.size, self.mesh.widths.size))
+        """Compute what the steps to a block of rows from `first` on need of the path alone.
+
+        bounds   f p
+        changes  change in shear under full stick
+        beside   of each element the nearest one that is in contact before the step
+        swept    of each element the nearest one that is in contact throughout the step, if an edge
+                 moves
+        parts    part of the step for which the element is in contact
+        """
+        path, ends = Path(*(v[first : first + 512] for v in self.path)), self.mesh.ends
+        self._first, self._bounds = first, np.zeros((path.a.size, ends.size - 1))
         self._changes = np.zeros(self._bounds.shape)
-        new = np.ones(rows.a.size, dtype=bool)
-        new[1:] = (np.diff(rows.a) != 0) | (np.diff(rows.c) != 0) | (np.diff(rows.P) != 0)
-        new &= rows.a + rows.c > 0
+        moves = (np.diff(path.a) != 0) | (np.diff(path.c) != 0)
+        new = np.append(True, moves | (np.diff(path.P) != 0)) & (path.a + path.c > 0)
         if np.any(new):
-            p = mean_pressures(
-                self.body, self.own, self.mesh.ends, rows.a[new], rows.c[new], rows.P[new]
-            )
+            p = mean_pressures(self.body, self.own, ends, path.a[new], path.c[new], path.P[new])
             self._bounds = self.f * p[np.maximum(np.cumsum(new) - 1, 0)]
-            self._bounds[~(rows.a + rows.c > 0)] = 0.0
+            self._bounds[~(path.a + path.c > 0)] = 0.0
             with np.errstate(invalid="ignore"):
-                self._changes[1:] = full_stick(self.mesh.ends, *rows[4:6], *rows[2:4])
+                self._changes[1:] = full_stick(ends, *path[4:6], *path[2:4])
+        self._beside = _nearest_marked(self._bounds[:-1] > 0)
+        a, c = path.a[:, None], path.c[:, None]
+        always = -np.minimum(a[:-1], a[1:]) <= ends[:-1]
+        always &= ends[1:] <= np.minimum(c[:-1], c[1:])
+        self._swept = _nearest_marked(always & moves[:, None])
+        with np.errstate(all="ignore"):
+            left = (np.maximum(a[:-1], a[1:]) + self.mesh.middles) / abs(np.diff(a, axis=0))
+            right = (np.maximum(c[:-1], c[1:]) - self.mesh.middles) / abs(np.diff(c, axis=0))
+        part = np.clip(np.fmin(left, right), 0.0, 1.0)
+        self._parts = np.where((moves & np.any(always, axis=1))[:, None], part, 1.0)
 
     def step(self, row: int) -> Regime:
         """Take the step to a row of the path."""
         if not self._first < row < self._first + len(self._bounds):
             self._prepare(row - 1)
-        path, before, w = self.path, self.bound, self.mesh.widths
-        k = row - self._first
+        path, before, w, k = self.path, self.bound, self.mesh.widths, row - self._first
         self.bound, self.slip, self.work = self._bounds[k], np.zeros(w.size), np.zeros(w.size)
         P, Q = path.P[row], path.Q[row]
         if not path.a[row] + path.c[row] > 0:
@@ -81,31 +96,24 @@ class Interface:
             return Regime.COMPUTED if np.any(self.status) else Regime.FULL_STICK
         trial = self.shear if math.isnan(path.a[row - 1]) else self.shear + self._changes[k]
         trial = trial + (Q - w @ trial) * self.mesh.rise
-        if (old := np.flatnonzero(before)).size:
-            # a first guess: where contact begins the surfaces slip like those beside it
-            self.status = self.status[np.clip(np.arange(w.size), old[0], old[-1])]
-        found = nearest(self.mesh, trial, self.bound, self.status)
+        # a first guess: where contact begins the surfaces slip like those beside it
+        guess = self.status[self._beside[k - 1]]
+        found = self._solver.nearest(trial, self.bound, guess)
         if found is None:
             return Regime.UNSOLVED
         self.shear, v, self.status = found
-        self._slip(row, 2 * v / w, (before + self.bound) / 2)
-        return Regime.COMPUTED if np.any(self.status) else Regime.FULL_STICK
+        slides = self.status != 0
+        slip = np.where(slides, 2 * v / self.mesh.widths, 0.0)[self._swept[k - 1]]
+        slip = np.where(slides | (self.bound == 0), slip, 0.0)
+        self.slip = self._parts[k - 1] * slip
+        self.work = (before + self.bound) / 2 * abs(slip)
+        return Regime.COMPUTED if slides.any() else Regime.FULL_STICK
 
-    def _slip(self, row: int, slip: Array, mean: Array) -> None:
-        """Set slip and work of the step; `mean` is the mean of f p."""
-        path, mesh = self.path, self.mesh
-        slip = np.where(self.status != 0, slip, 0.0)
-        part = np.ones(slip.size)
-        a, c = path.a[row - 1 : row + 1], path.c[row - 1 : row + 1]
-        if a[0] != a[1] or c[0] != c[1]:
-            outside = np.maximum(-np.min(a) - mesh.ends[:-1], mesh.ends[1:] - np.min(c))
-            always = np.flatnonzero(outside <= 0)
-            if always.size:
-                slips = (self.bound == 0) | (self.status != 0)
-                swept = np.clip(np.arange(slip.size), always[0], always[-1])
-                slip = np.where(slips, slip[swept], 0.0)
-                with np.errstate(all="ignore"):
-                    left = (np.max(a) + mesh.middles) / abs(a[1] - a[0])
-                    right = (np.max(c) - mesh.middles) / abs(c[1] - c[0])
-                part = np.clip(np.fmin(left, right), 0.0, 1.0)
-        self.slip, self.work = part * slip, mean * abs(slip)
+
+def _nearest_marked(marked: Array) -> Array:
+    """Of each element in a row the nearest one between the first and the last that are marked; the
+    element itself where none is marked."""
+    count = marked.shape[1]
+    first, last = np.argmax(marked, axis=1), count - 1 - np.argmax(marked[:, ::-1], axis=1)
+    first = np.where(np.any(marked, axis=1), first, 0)
+    return np.clip(np.arange(count), first[:, None], last[:, None])

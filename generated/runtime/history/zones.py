@@ -8,10 +8,10 @@ from ..types import Array
 from .elements import Elements
 
 
-def runs(marked: Array) -> list[Array]:
-    """The indices of the marked elements, one array for each run without a gap."""
-    found = np.flatnonzero(marked)
-    return np.split(found, np.flatnonzero(np.diff(found) > 1) + 1) if found.size else []
+def runs(marked: Array) -> Array:
+    """The first and the last index of each run of marked elements, one row for each run."""
+    turns = np.flatnonzero(np.diff(np.concatenate([[False], marked, [False]])))
+    return turns.reshape(-1, 2) - [0, 1]
 
 
 def sticking(
@@ -25,11 +25,12 @@ def sticking(
     """
     sticks = (bound > 0) & (status == 0)
     intervals = runs(sticks)
-    intervals = [run for run in intervals if run.size > 1] or intervals[:1]
-    if not intervals:
+    longer = intervals[intervals[:, 0] < intervals[:, 1]]
+    intervals = longer if len(longer) else intervals[:1]
+    if not len(intervals):
         return math.nan, math.nan, 0, 0.0
     x, w, ends, error = mesh.middles, mesh.widths, [], 0.0
-    for last, side, edge in ((intervals[0][0], -1, -a), (intervals[-1][-1], 1, c)):
+    for last, side, edge in ((intervals[0, 0], -1, -a), (intervals[-1, 1], 1, c)):
         beyond, near, far = last + side, last - 2 * side, last - 4 * side
         if not 0 <= beyond < x.size or bound[beyond] == 0:
             ends.append(edge)
@@ -60,12 +61,13 @@ def permanent(
     extrapolation, the outer one slips at least four times as far.  The error is half an element.
     """
     x = mesh.middles
-    zones = [run for run in runs(always & sticks) if run.size > 1]
-    if not zones:
+    zones = runs(always & sticks)
+    zones = zones[zones[:, 0] < zones[:, 1]]
+    if not len(zones):
         return math.nan, math.nan, math.nan
-    zone = max(zones, key=lambda run: mesh.ends[run[-1] + 1] - mesh.ends[run[0]])
-    ends, middle = [], (x[zone[0]] + x[zone[-1]]) / 2
-    for last, side in ((zone[0], -1), (zone[-1], 1)):
+    zone = zones[np.argmax(mesh.ends[zones[:, 1] + 1] - mesh.ends[zones[:, 0]])]
+    ends, middle = [], np.mean(x[zone])
+    for last, side in zip(zone, (-1, 1), strict=True):
         near, far = last + 2 * side, last + 3 * side
         while 0 <= far + side < x.size and slip[far] < 4 * slip[near]:
             far += side
@@ -76,4 +78,4 @@ def permanent(
                 low, high = sorted((middle, x[near]))
                 end = min(max(x[near] - (x[far] - x[near]) * g / (G - g), low), high)
         ends.append(end)
-    return -ends[0], ends[1], np.max(mesh.widths[zone[[0, -1]]]) / 2
+    return -ends[0], ends[1], np.max(mesh.widths[zone]) / 2

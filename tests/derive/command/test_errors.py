@@ -5,7 +5,7 @@ import pickle
 import pytest
 
 from derive.command import errors
-from derive.command.errors import BadOutput, BadUnit, DimensionMismatch, UnknownGeometry, UserError
+from derive.command.errors import BadUnit, DimensionMismatch, UnknownGeometry, UserError
 
 KINDS = [k for k in vars(errors).values() if isinstance(k, type) and issubclass(k, UserError)]
 MISTAKES = [
@@ -36,11 +36,3 @@ def test_facts_are_given_in_order_or_by_name_and_may_have_a_default() -> None:
     for facts in ({"given": "kg"}, {"given": "kg", "why": "", "colour": "red"}):
         with pytest.raises(TypeError):
             BadUnit(**facts)
-
-
-def test_a_full_disk_has_a_remedy_of_its_own() -> None:
-    told = BadOutput("made", "cannot be replaced (No space left on device)").message
-    assert told == (
-        "made cannot be replaced (No space left on device); the disk is full: free some space, "
-        "then run the command again"
-    )

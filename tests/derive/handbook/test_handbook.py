@@ -14,9 +14,9 @@ import derive.codegen.trial
 import derive.command.processes
 import derive.proof.prove
 from derive import Geometry, derive_sheet, parameter, x
-from derive.command.errors import BadPage
+from derive.command.errors import BadTarget
 from derive.command.files import put_page
-from derive.command.folder import put_pages
+from derive.command.folder import replace_folder, with_manifest
 from derive.handbook.curves import OWN, drawn_at, pictures
 from derive.handbook.page import entry, index_of, page
 from derive.pipeline import GENERATED
@@ -57,7 +57,7 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
     bodies = [made(name) for name in NAMES]
     texts = {f"{sheet.geometry.name}.html": page(sheet, b, index=True) for sheet, b in bodies}
     texts["index.html"] = index_of([entry(sheet, b) for sheet, b in bodies])
-    put_pages(texts, folder)
+    replace_folder(with_manifest(texts), folder)
     return folder
 
 
@@ -127,10 +127,10 @@ def test_a_page_of_ones_own_is_never_lost(tmp_path: Path) -> None:
             (tmp_path / ("a" * 300), "too long"),
         ),
     ):
-        with pytest.raises(BadPage, match=told):
+        with pytest.raises(BadTarget, match=told):
             put_page("<html>", path)
-    with pytest.raises(BadPage, match=r"contains 'hertz.html'"):
-        put_pages({}, tmp_path)
+    with pytest.raises(BadTarget, match=r"contains 'hertz.html'"):
+        replace_folder(with_manifest({}), tmp_path)
     assert mine.read_text() == "mine"
     assert [p.name for p in tmp_path.iterdir()] == ["hertz.html"]
 

@@ -159,3 +159,32 @@ def test_of_a_function_by_branches_only_the_branch_taken_is_computed() -> None:
         assert number(four) == 6
         assert [number(value) for value in nested] == [0.5, 2.25, 6]
         assert mpmath.isnan(number(program(Piecewise((s, s > 1)))({s: mpf(0)})))
+
+
+ALONG = Symbol("s", real=True)
+
+
+@pytest.mark.parametrize(
+    ("inside", "low", "high", "wanted"),
+    [
+        (abs(sin(3 * ALONG)), 0, pi, S(2)),
+        (abs(exp(ALONG) - 2), 0, 2, E**2 - 7 + 4 * log(2)),
+        # 1/2 - sqrt(s) to 1/4, sqrt(s) - 1/2 beyond: 1/24 + 5/24
+        (abs(sqrt(ALONG) - Rational(1, 2)), 0, 1, Rational(1, 4)),
+        # |s - 1|: a root of second order
+        (sqrt(ALONG**2 - 2 * ALONG + 1), 0, 3, Rational(5, 2)),
+        # u**2 |u - 1|, u = s - 1: 2/3 for u in [-1, 1] and 15/4 - 7/3 in [1, 2]
+        (abs(ALONG**3 - 4 * ALONG**2 + 5 * ALONG - 2), 0, 3, Rational(25, 12)),
+        (abs(abs(ALONG - 1) - sqrt(2)), 1, 4, Rational(13, 2) - 3 * sqrt(2)),
+        (log(abs(ALONG**2 - 1)), -1, 1, 4 * log(2) - 4),
+        (sign(sign(ALONG) + ALONG - 2), -1, 3, S(0)),
+        # a narrow peak
+        (1 / (10**12 * (ALONG - 1) ** 2 + 1), 0, 2, 2 * atan(10**6) / 10**6),
+    ],
+)
+def test_integrals_of_what_is_not_smooth_at_places_that_must_be_found(
+    inside: Expr, low: Expr, high: Expr, wanted: Expr
+) -> None:
+    with mpmath.workdps(40):
+        found = evaluated(Integral(inside, (ALONG, low, high)), {})
+        assert abs(found - mpmath.mpmathify(S(wanted).evalf(50))) < mpf(10) ** -36

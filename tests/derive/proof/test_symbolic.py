@@ -17,7 +17,10 @@ FALSE = {
     "nothing at a = c": lambda expr: expr + (a - c) / 10**12,
     "nothing for a < c": lambda expr: expr + Max(0, a - c) ** 3 / 10**12,
 }
-FORMULAS = ("K_N_left", "K_N_right", "load_rate", "edge_ratio", "punch", "load_by_a", "tilt_by_c")
+FORMULAS = (
+    *("K_N_left", "K_N_right", "load_rate", "edge_ratio", "punch"),
+    *("load_by_a", "tilt_by_c", "full_stick_change"),
+)
 
 
 LONG = [pytest.param(body, marks=pytest.mark.slow) for body in ("two_radii", "flat_rounded")]
