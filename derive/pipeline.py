@@ -131,8 +131,8 @@ def each_in_process(
 ) -> list[Made]:
     """What `make` returns for every source and the time limit; `jobs` processes are at work.
 
-    Raises LostProcess if a process ends early, TwoOfOneName before anything is made if the files
-    state the same name, and RanAway for a file that exceeds the limits USER_FILE_LIMITS.
+    Raises TwoOfOneName before anything is made if the files state the same name, and RanAway if a
+    process ends early, or exceeds the limits USER_FILE_LIMITS for a file.
     """
     _demand_names_of_their_own(sources)
     bounds = None if all(map(is_in_library, sources)) else USER_FILE_LIMITS

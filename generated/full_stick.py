@@ -20,9 +20,8 @@ from .runtime.types import Array, Edges, Values
 def _K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the full-stick shear change at a distance s from the edges."""
     h = a + c  # contact width [m]
-    root = np.sqrt(h)
-    K_T_left = (dQ / np.pi + dsigma * h / 8) / root
-    K_T_right = (dQ / np.pi - dsigma * h / 8) / root
+    K_T_left = (dQ / np.pi + dsigma * h / 8) / np.sqrt(h)
+    K_T_right = (dQ / np.pi - dsigma * h / 8) / np.sqrt(h)
     exists = (h > LEAST) & (h < MOST)
     return Edges(where(exists, K_T_left, np.nan), where(exists, K_T_right, np.nan))
 
@@ -59,9 +58,8 @@ def K_T(a: Values, c: Values, dQ: Values, dsigma: Values) -> Edges:
 def _L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the full-stick shear change at a distance s from the edges."""
     h = a + c  # contact width [m]
-    root = 2 * h * np.sqrt(h)
-    L_T_left = (dQ / np.pi - 3 * dsigma * h / 8) / root
-    L_T_right = (dQ / np.pi + 3 * dsigma * h / 8) / root
+    L_T_left = (dQ / np.pi - 3 * dsigma * h / 8) / (2 * h * np.sqrt(h))
+    L_T_right = (dQ / np.pi + 3 * dsigma * h / 8) / (2 * h * np.sqrt(h))
     exists = (h > LEAST) & (h < MOST)
     return Edges(where(exists, L_T_left, np.nan), where(exists, L_T_right, np.nan))
 

@@ -271,9 +271,8 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> A
 def _K_N(a: Array, c: Array, E_star: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (E_star / (2 * R)) * np.sqrt(h)
-    K_N_left = scale
-    K_N_right = scale
+    K_N_left = (E_star / (2 * R)) * np.sqrt(h)
+    K_N_right = (E_star / (2 * R)) * np.sqrt(h)
     exists = (h > LEAST) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
@@ -313,9 +312,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
 def _L_N(a: Array, c: Array, E_star: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = -((E_star / (4 * R)) / np.sqrt(h))
-    L_N_left = scale
-    L_N_right = scale
+    L_N_left = -((E_star / (4 * R)) / np.sqrt(h))
+    L_N_right = -((E_star / (4 * R)) / np.sqrt(h))
     exists = (h > LEAST) & (h < MOST)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 

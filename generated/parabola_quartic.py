@@ -220,9 +220,16 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values, R: V
 def _K_N(a: Array, c: Array, E_star: Array, L: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (E_star / (16 * (L * L**2) * R)) * np.sqrt(h)
-    K_N_left = scale * (8 * (L * L**2) + (15 * R) * a**2 + (3 * R) * c**2 - (6 * R) * a * c)
-    K_N_right = scale * (8 * (L * L**2) + (3 * R) * a**2 + (15 * R) * c**2 - (6 * R) * a * c)
+    K_N_left = (
+        (E_star / (16 * (L * L**2) * R))
+        * (8 * (L * L**2) + (15 * R) * a**2 + (3 * R) * c**2 - (6 * R) * a * c)
+        * np.sqrt(h)
+    )
+    K_N_right = (
+        (E_star / (16 * (L * L**2) * R))
+        * (8 * (L * L**2) + (3 * R) * a**2 + (15 * R) * c**2 - (6 * R) * a * c)
+        * np.sqrt(h)
+    )
     exists = (h > LEAST) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
@@ -263,12 +270,15 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Edges:
 def _L_N(a: Array, c: Array, E_star: Array, L: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (E_star / ((L * L**2) * R)) / np.sqrt(h)
-    L_N_left = scale * (
-        (5 * R / 32) * c**2 - (L * L**2) / 4 - (55 * R / 32) * a**2 - (13 * R / 16) * a * c
+    L_N_left = -(
+        (E_star / (32 * (L * L**2) * R))
+        * (8 * (L * L**2) + (55 * R) * a**2 + (26 * R) * a * c - (5 * R) * c**2)
+        / np.sqrt(h)
     )
-    L_N_right = scale * (
-        (5 * R / 32) * a**2 - (L * L**2) / 4 - (13 * R / 16) * a * c - (55 * R / 32) * c**2
+    L_N_right = (
+        (E_star / (32 * (L * L**2) * R))
+        * ((5 * R) * a**2 - 8 * (L * L**2) - (26 * R) * a * c - (55 * R) * c**2)
+        / np.sqrt(h)
     )
     exists = (h > LEAST) & (h < MOST)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))

@@ -203,9 +203,8 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values) -> A
 def _K_N(a: Array, c: Array, E_star: Array, L: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (3 * E_star / (16 * (L * L**2))) * np.sqrt(h)
-    K_N_left = scale * (5 * a**2 + c**2 - 2 * a * c)
-    K_N_right = scale * (a**2 + 5 * c**2 - 2 * a * c)
+    K_N_left = (3 * E_star / (16 * (L * L**2))) * (5 * a**2 + c**2 - 2 * a * c) * np.sqrt(h)
+    K_N_right = (3 * E_star / (16 * (L * L**2))) * (a**2 + 5 * c**2 - 2 * a * c) * np.sqrt(h)
     exists = (h > LEAST) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
@@ -246,9 +245,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values) -> Edges:
 def _L_N(a: Array, c: Array, E_star: Array, L: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
-    scale = (E_star / (L * L**2)) / np.sqrt(h)
-    L_N_left = scale * (5 * c**2 / 32 - 55 * a**2 / 32 - 13 * a * c / 16)
-    L_N_right = scale * (5 * a**2 / 32 - 13 * a * c / 16 - 55 * c**2 / 32)
+    L_N_left = -((E_star / (32 * (L * L**2))) * (55 * a**2 + 26 * a * c - 5 * c**2) / np.sqrt(h))
+    L_N_right = (E_star / (32 * (L * L**2))) * (5 * a**2 - 26 * a * c - 55 * c**2) / np.sqrt(h)
     exists = (h > LEAST) & (h < MOST)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 

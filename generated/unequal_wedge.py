@@ -93,15 +93,14 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, phi_1: Values, phi_2:
 @shared
 def _contact_at_tilt(P: Array, alpha: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Contact:
     """Contact under the load P at the tilt alpha."""
-    scale = -((2 / (E_star * (phi_1 + phi_2))) * P)
     # from the nearer of 0 and a right angle [-]
     tangent = where(
         (np.pi / (phi_1 + phi_2)) * np.abs(alpha - phi_1) < np.pi / 2,
         np.tan((np.pi / (2 * (phi_1 + phi_2))) * (alpha - phi_1)),
         -1 / np.tan((np.pi / (2 * (phi_1 + phi_2))) * (alpha + phi_2)),
     )
-    a = scale / tangent
-    c = tangent * scale
+    a = -((2 / (E_star * (phi_1 + phi_2))) * P / tangent)
+    c = -((2 / (E_star * (phi_1 + phi_2))) * tangent * P)
     h = a + c  # contact width [m]
     exists = (P > 0) & (alpha > -phi_2) & (alpha < phi_1) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
@@ -309,9 +308,8 @@ def _K_N(a: Array, c: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Edges
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
     w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
-    scale = (E_star * (phi_1 + phi_2) / np.pi) * w_1 / np.sqrt(h)
-    K_N_left = scale / a
-    K_N_right = scale / c
+    K_N_left = (E_star * (phi_1 + phi_2) / np.pi) * w_1 / (a * np.sqrt(h))
+    K_N_right = (E_star * (phi_1 + phi_2) / np.pi) * w_1 / (c * np.sqrt(h))
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
@@ -355,9 +353,12 @@ def _L_N(a: Array, c: Array, E_star: Array, phi_1: Array, phi_2: Array) -> Edges
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
     w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
-    scale = (E_star * (phi_1 + phi_2) / (6 * np.pi)) * w_1 / (h * np.sqrt(h))
-    L_N_left = scale * (3 * a + 2 * c) / a**2
-    L_N_right = scale * (2 * a + 3 * c) / c**2
+    L_N_left = (
+        (E_star * (phi_1 + phi_2) / (6 * np.pi)) * w_1 * (3 * a + 2 * c) / (a**2 * h * np.sqrt(h))
+    )
+    L_N_right = (
+        (E_star * (phi_1 + phi_2) / (6 * np.pi)) * w_1 * (2 * a + 3 * c) / (c**2 * h * np.sqrt(h))
+    )
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 

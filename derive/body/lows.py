@@ -4,10 +4,10 @@ In:  a piece of a profile; numbers for its parameters, and the ends of an interv
 Out: places where the curvature seems to be negative, or the profile or the curvature undefined, few
      enough to be checked with many digits, because double precision alone does not decide.
 
-A polynomial is least at its turning points or at the ends.  Any other curvature is evaluated at
-thousands of points.  They lie at distances of all magnitudes from the origin, from the ends and
-from places where the arguments of functions are zero or one, since narrow features are found there.
-The search is refined around the lowest of them.
+The curvature is evaluated at thousands of points.  They lie at distances of all magnitudes from the
+origin, from the ends and from marks, since narrow features are found there: places where the
+arguments of functions are zero or one, or where a polynomial is zero or turns.  The search is
+refined around the lowest of them.
 """
 
 from collections.abc import Iterator, Sequence
@@ -38,8 +38,6 @@ _PER_DECADE = 200
 """Distances per decade from the origin and the ends; from other marks a quarter as many."""
 _BEYOND = 1000
 """Factor by which the search extends beyond the largest length and below the smallest."""
-_INSIDE = 1e-9
-"""Distance from an end at which a polynomial is evaluated, relative to the interval."""
 _DECADES = 16
 """Largest number of decades that the distances span."""
 _EVENLY = 4000
@@ -57,17 +55,13 @@ class Lows:
 
     def __init__(self, piece: Piece, symbols: Sequence[Symbol]) -> None:
         both = [_joined(expr) for expr in (piece.curvature, piece.profile)]
-        self._is_polynomial = bool(both[0].is_polynomial(x))
-        own = [Tuple(*Poly(both[0], x).all_coeffs())] if self._is_polynomial else _marking(both[0])
-        self._polynomials = compiled(symbols, [*own], modules="numpy")
+        self._polynomials = compiled(symbols, [*_marking(both[0])], modules="numpy")
         self._at = compiled([x, *symbols], both, shared=True, modules="numpy")
 
     def places(self, given: Sequence[float], lower: float, upper: float) -> list[float]:
         """Points between two ends where the curvature may be negative, the likeliest first."""
         numbers = [np.float64(value) for value in given]
         with np.errstate(all="ignore"):
-            if self._is_polynomial:
-                return self._turning_points(numbers, lower, upper)
             places = self._grid(numbers, lower, upper)
             if not places.size:
                 return []
@@ -76,19 +70,6 @@ class Lows:
             places, first = np.unique(np.concatenate((places, found)), return_index=True)
             values = np.concatenate((values, self._values(found, numbers)))[first]
         return [*_lowest(places, values), *_without_value(places, values)]
-
-    def _turning_points(self, numbers: list[np.float64], lower: float, upper: float) -> list[float]:
-        """Points where a polynomial may be least, beginning with the lowest."""
-        coefficients = np.array(self._polynomials(*numbers)[0], dtype=float)
-        if not np.all(np.isfinite(coefficients)):
-            return []  # the printer refuses such a body
-        turning = np.roots(np.polyder(coefficients)).real
-        ends = np.array([end for end in (lower, upper) if np.isfinite(end)])
-        most = np.max(np.abs([*np.roots(coefficients), *turning, *ends]), initial=1.0) * _BEYOND
-        low, high = max(lower, -most), min(upper, most)
-        inside = _INSIDE * (high - low)
-        places = np.array([low + inside, high - inside, *turning])
-        return [*map(float, places[np.argsort(np.polyval(coefficients, places))])]
 
     def _values(self, places: Array, numbers: list[np.float64]) -> Array:
         """The curvature; NaN where it or the profile is undefined."""
@@ -148,7 +129,11 @@ def _joined(expr: Expr) -> Expr:
 
 
 def _marking(expr: Expr) -> Iterator[Tuple]:
-    """Coefficients of polynomials at whose roots the behaviour of functions or powers changes."""
+    """Coefficients of polynomials at whose roots the expression may turn or change its nature."""
+    if expr.is_polynomial(x):
+        whole = Poly(expr, x)
+        yield from (Tuple(*each.all_coeffs()) for each in (whole, whole.diff(x)))
+        return
     arguments = {arg for f in expr.atoms(Function) for arg in f.args}
     arguments |= {p.exp for p in expr.atoms(Pow)}
     bases = {p.base for p in expr.atoms(Pow)}

@@ -53,11 +53,6 @@ class Difference:
         """Whether the generated package does not have this file."""
         return self.what == "not generated"
 
-    @property
-    def lines(self) -> list[str]:
-        """The lines of the diff."""
-        return self.diff.splitlines()
-
 
 def package_files(modules: Files, with_runtime: bool = True) -> dict[str, str]:
     """All files of a package: `modules`, given as texts by name, the runtime, and a list of all."""

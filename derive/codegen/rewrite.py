@@ -17,15 +17,12 @@ from sympy import (
     Dummy,
     Expr,
     Max,
-    Mul,
     Piecewise,
-    Pow,
     S,
     Symbol,
     atan2,
     expand,
     factor,
-    fraction,
     pi,
     simplify,
     sqrt,
@@ -44,9 +41,7 @@ from derive.theory.segments import kink_logarithm
 
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
-_root, _scale, _base, _reach = (
-    Dummy(name, positive=True) for name in ("root", "scale", "base", "reach")
-)
+_base, _reach = (Dummy(name, positive=True) for name in ("base", "reach"))
 _tangent = Dummy("tangent", real=True)
 
 
@@ -64,7 +59,7 @@ def stable_program(sheet: FormulaSheet, outputs: Mapping[str, Expr], example: Po
     program = roots_under_the_edges(sums_without_difference(program)).with_steps(
         Step(e, M / P, "lever arm of the load"), Step(_h, h, "contact width")
     )
-    program = common_factor_once(tangents_from_both_ends(program, example))
+    program = tangents_from_both_ends(program, example)
     return program.renamed(q.name for q in sheet.geometry.parameters).ordered()
 
 
@@ -173,37 +168,3 @@ def roots_under_the_edges(program: Program) -> Program:
         return program
     program = program.mapped(lambda expr: expr.subs(w, _w))
     return program.with_steps(Step(_w, sqrt(Max(0, (a + x) * (c - x))), "root at x"))
-
-
-def common_factor_once(program: Program) -> Program:
-    """left = F u and right = F v: compute F once, unless that would split a root."""
-    products = {n: v for n, v in program.outputs.items() if isinstance(v, Mul)}
-    if len(products) < 2:
-        return program
-    common = _common_factor(list(products.values()))
-    if any(_roots(v / common) for v in products.values()):
-        common = Mul(*(f for f in Mul.make_args(common) if not _roots(f)))
-    above, below = fraction(common)
-    if common == 1 or common.is_Symbol or (above == 1 and below.is_Symbol):
-        return program
-    symbol, once = (_root, below) if above == 1 else (_scale, common)
-    shared = symbol if above != 1 else 1 / symbol
-    outputs = {n: v / common * shared if n in products else v for n, v in program.outputs.items()}
-    return replace(program, outputs=outputs, steps=(*program.steps, Step(symbol, once, "")))
-
-
-def _roots(expr: Expr) -> set[Expr]:
-    return {p for p in expr.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2}
-
-
-def _common_factor(products: list[Expr]) -> Expr:
-    """The common factor of all products, with the smallest power of each base."""
-    first, *others = products
-    if all(other == first for other in others):
-        return first
-    common = S.One
-    for base, exponent in first.as_powers_dict().items():
-        exponents = [exponent, *(p.as_powers_dict().get(base, S.Zero) for p in others)]
-        if all(e.is_number and e * exponent > 0 for e in exponents):
-            common *= base ** min(exponents, key=abs)
-    return common

@@ -8,20 +8,17 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from functools import partial
-from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from derive.command.group import FELL_SHORT, Commands
-from derive.command.options import PATH, WithFormula, time_limit
+from derive.command.options import PATH, WithFormula, name_values, positive, time_limit
 from derive.command.terminal import (
     command,
     complain,
-    is_narrow,
     output,
-    output_table,
     path_of,
     progress,
     remark,
@@ -49,7 +46,7 @@ def list_() -> None:
     from derive.sheet.derivation import derive_law, with_closed_forms
 
     laws = (derive_law(load_geometry(name)) for name in library())
-    output_table(view.listing((with_closed_forms(law) for law in laws), is_narrow()))
+    output(view.listing(with_closed_forms(law) for law in laws))
 
 
 @main.command()
@@ -112,7 +109,7 @@ def show(
     if isinstance(shown, str):
         click.echo(shown)
     else:
-        output_table(shown)
+        output(shown)
 
 
 def _show_page(name: str, out: Path | None, limit: float) -> None:
@@ -128,7 +125,7 @@ def _show_page(name: str, out: Path | None, limit: float) -> None:
     _remark_on([body])
     path = out or Path(f"{body.name}.html")
     put_page(page, path)
-    output(f"Wrote {path_of(path.resolve())}")
+    click.echo(f"Wrote {path_of(path.resolve())}")
 
 
 def _show_pages(out: Path | None, limit: float) -> None:
@@ -150,23 +147,21 @@ def _show_pages(out: Path | None, limit: float) -> None:
     pages = {f"{body.name}.html": page for body, page, _ in made}
     replace_folder(with_manifest(pages | {"index.html": index_of(entries)}), folder)
     index = path_of((folder / "index.html").resolve())
-    output(f"Wrote {index} and the pages of {len(bodies)} bodies")
+    click.echo(f"Wrote {index} and the pages of {len(bodies)} bodies")
 
 
 @main.command(cls=WithFormula)
 @click.argument("name")
 @click.argument("profile", metavar="G")
-@click.option("--unit", "units", multiple=True, metavar="NAME=UNIT", help="Unit of a parameter.")
-@click.option(
-    "--meaning", "meanings", multiple=True, metavar="NAME=TEXT", help="Meaning of a parameter."
-)
+@name_values("--unit", "units", metavar="NAME=UNIT", help="Unit of a parameter.")
+@name_values("--meaning", "meanings", metavar="NAME=TEXT", help="Meaning of a parameter.")
 @click.option("--title", default="", help="First line of the file.")
 @click.option("--out", type=PATH, help="A directory, or a path that ends in .py.")
 def new(
     name: str,
     profile: str,
-    units: tuple[str, ...],
-    meanings: tuple[str, ...],
+    units: dict[str, str],
+    meanings: dict[str, str],
     title: str,
     out: Path | None,
 ) -> None:
@@ -177,13 +172,9 @@ def new(
     changed.
     """
     from derive.command.files import place_of_geometry, write_geometry
-    from derive.command.wanted import Wanted, in_limited_process, parse_name_values
+    from derive.command.wanted import Wanted, in_limited_process
 
-    unit_of, meaning_of = (
-        parse_name_values("--unit", units),
-        parse_name_values("--meaning", meanings),
-    )
-    wanted = Wanted(name, profile.strip(), title, unit_of, meaning_of)
+    wanted = Wanted(name, profile.strip(), title, units, meanings)
     path = place_of_geometry(name, out)
     with status(f"{name}: reading g(x)"):
         made = in_limited_process(wanted)
@@ -234,10 +225,10 @@ def generate(
         _report_drift(order, bodies)
         return
     changed = order.write(bodies)
-    output_table(view.summary(bodies))
-    output(f"{'Wrote' if changed else 'Nothing to change in'} {path_of(order.target)}")
+    output(view.summary(bodies))
+    click.echo(f"{'Wrote' if changed else 'Nothing to change in'} {path_of(order.target)}")
     if lost := [d.name for d in changed if d.removed and "/" not in d.name]:
-        output(f"Removed {', '.join(lost)}: name all bodies of a package in one command")
+        click.echo(f"Removed {', '.join(lost)}: name all bodies of a package in one command")
 
 
 @main.command()
@@ -320,15 +311,15 @@ def check(
     if form in documents.FORMS:
         click.echo(documents.FORMS[form](paper, findings))
     elif explain is not None:
-        output_table(view.explained(findings))
+        output(view.explained(findings))
     else:
-        output_table(view.checked(findings))
+        output(view.checked(findings))
     if page is not None:
         put_page(documents.FORMS["html"](paper, findings), page, "--html")
-        output(f"Wrote {path_of(page.resolve())}")
+        click.echo(f"Wrote {path_of(page.resolve())}")
     elif form == "table" and explain is None:
         given = "" if file is None else f"{typed(file)} "
-        output(f"More: {command()} check {given}--explain CLAIM, or --html PAGE for all claims")
+        click.echo(f"More: {command()} check {given}--explain CLAIM, or --html PAGE for all claims")
     wrong = [finding for finding in findings if not finding.as_expected]
     if wrong:
         complain("Not as expected", "; ".join(finding.claim.name for finding in wrong))
@@ -337,7 +328,13 @@ def check(
 
 @main.command()
 @click.argument("file", type=PATH)
-@click.option("--f", "friction", type=float, required=True, help="Coefficient of friction.")
+@click.option(
+    *("--f", "friction"),
+    type=float,
+    required=True,
+    callback=positive,
+    help="Coefficient of friction.",
+)
 @click.option(
     "--dQ",
     "dQ",
@@ -351,7 +348,7 @@ def check(
     metavar="PA",
     help="Change in the bulk tension over the same half-cycle.",
 )
-@click.option("--unit", "units", multiple=True, metavar="NAME=UNIT", help="Unit of x or of p.")
+@name_values("--unit", "units", metavar="NAME=UNIT", help="Unit of x or of p.")
 @click.option("--html", type=PATH, help="Also write a page with pictures.")
 @click.option("--csv", "table", type=PATH, help="Also write the results, in SI units.")
 def edge(
@@ -359,7 +356,7 @@ def edge(
     friction: float,
     dQ: float | None,
     dsigma: float | None,
-    units: tuple[str, ...],
+    units: dict[str, str],
     html: Path | None,
     table: Path | None,
 ) -> None:
@@ -371,15 +368,11 @@ def edge(
     load steps; the half-cycle runs from the first of them to the last.
     """
     from derive.command.files import MARK, demand_page, put_page
-    from derive.command.wanted import parse_name_values
     from derive.edge import report
     from derive.edge.find import find
     from derive.edge.table import read
 
-    if not 0 < friction < inf:
-        raise click.BadParameter("must be a finite number above zero", param_hint="--f")
-    given = parse_name_values("--unit", units)
-    if wrong := given.keys() - {"x", "p"}:
+    if wrong := units.keys() - {"x", "p"}:
         raise click.BadParameter(
             f"{wrong.pop()!r} is neither x nor p: write x=UNIT or p=UNIT", param_hint="--unit"
         )
@@ -388,7 +381,7 @@ def edge(
         if path is not None:
             demand_page(path, option, mark)
     with status(f"reading {file.name}"):
-        steps = read(file, given)
+        steps = read(file, units)
     with progress(len(steps), ("fitting",)) as fitted:
         found = find(
             steps, file.name, friction, dQ, dsigma, lambda name: fitted(f"load step {name}", "")
@@ -421,11 +414,12 @@ def _report_drift(order: "Order", bodies: "Sequence[BuiltBody]") -> None:
 
     found = order.check(bodies)
     if not found:
-        output(f"{path_of(order.target)} is up to date")
+        click.echo(f"{path_of(order.target)} is up to date")
         return
-    output(view.drift(found))
+    for line in view.drift(found):
+        click.echo(line)
     where = f" --out {path_of(order.target)}" if order.folder else ""
-    output(f"Update with: {command()} generate{''.join(f' {s}' for s in order.sources)}{where}")
+    click.echo(f"Update with: {command()} generate{''.join(f' {s}' for s in order.sources)}{where}")
     sys.exit(FELL_SHORT)
 
 

@@ -166,11 +166,6 @@ class TwoOfOneName(UserError):
     """two geometries are named {name!r}, but each needs a module of its own: rename one of them"""
 
 
-class LostProcess(UserError):
-    """one of {jobs} processes ended before its body was finished, possibly because memory ran out:
-    build fewer bodies at once, as with --jobs {fewer}"""
-
-
 class RanAway(UserError):
     """{what}: the stage '{stage}' {why}: {remedy}"""
 

@@ -1,12 +1,14 @@
 """Types of options and arguments: paths, times and formulas."""
 
 import unicodedata
+from functools import partial
 from math import inf
 from pathlib import Path
 
 import click
 
 from derive.command.limit import DEFAULT
+from derive.command.wanted import parse_name_values
 
 
 class _Path(click.ParamType):
@@ -26,17 +28,25 @@ class _Path(click.ParamType):
 PATH = _Path()
 
 
-def _time(context: click.Context, option: click.Parameter, seconds: float) -> float:
-    """Return the seconds, a finite number above zero."""
-    if not 0 < seconds < inf:
-        raise click.BadParameter(f"{seconds:g} is not a valid time, such as 20", context, option)
-    return seconds
+def positive(context: click.Context, option: click.Parameter, value: float) -> float:
+    """Return the value of an option, which must be a finite number above zero."""
+    if not 0 < value < inf:
+        raise click.BadParameter(f"{value:g} is not a finite number above zero", context, option)
+    return value
+
+
+name_values = partial(
+    click.option,
+    multiple=True,
+    callback=lambda context, option, given: parse_name_values(option.opts[0], given),
+)
+"""An option NAME=TEXT that may be repeated: the text for each name."""
 
 
 time_limit = click.option(
     "--limit",
     type=float,
-    callback=_time,
+    callback=positive,
     default=DEFAULT,
     show_default=True,
     metavar="SECONDS",

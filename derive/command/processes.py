@@ -27,7 +27,7 @@ from threading import Thread
 from time import monotonic, sleep
 from typing import TypeVar
 
-from derive.command.errors import LostProcess, RanAway, UserError
+from derive.command.errors import RanAway
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -80,19 +80,15 @@ class _Worker:
         if monotonic() - self.since > seconds:
             raise self._ran_away(f"took longer than the limit of {seconds:g} s")
 
-    def lost(self, bounds: Bounds | None, jobs: int) -> UserError:
+    def lost(self, bounds: Bounds | None) -> RanAway:
         """The error if the process has ended before its item was done."""
-        if bounds is None:
-            return LostProcess(jobs, jobs // 2)
         self.process.join(_INTERVAL)
-        if self.process.exitcode == _NO_MEMORY:
+        if bounds and self.process.exitcode == _NO_MEMORY:
             return self._ran_away(f"needed more memory than the limit of {bounds.gigabytes:g} GB")
-        remedy = "simplify the profile, for example with fewer terms or nested functions"
-        return self._ran_away("crashed, which can happen if numbers are too large", remedy)
+        return self._ran_away("crashed, which can happen if numbers are large or memory runs out")
 
-    def _ran_away(
-        self, why: str, remedy: str = "simplify the profile, or the file that defines it"
-    ) -> RanAway:
+    def _ran_away(self, why: str) -> RanAway:
+        remedy = "simplify the profile, or build fewer bodies at once, as with --jobs 1"
         return RanAway(self.what or "this body", self.stage or "starting", why, remedy)
 
 
@@ -114,8 +110,7 @@ def in_processes(
 
     No other process is used if one is enough and there are no bounds.
 
-    Raises LostProcess if a process ends before its item is done.  With bounds, raises RanAway if a
-    process exceeds them or ends early.
+    Raises RanAway if a process ends before its item is done, or exceeds the bounds.
     """
     jobs = min(jobs, len(items), _MAX_PROCESSES)
     if not items or (jobs <= 1 and bounds is None):
@@ -199,7 +194,7 @@ def _results(
             try:
                 kind, *told = worker.line.recv()
             except (EOFError, ConnectionError):
-                raise worker.lost(bounds, len(workers)) from None
+                raise worker.lost(bounds) from None
             if kind == "report":
                 worker.enter(*told)
                 report(*told)

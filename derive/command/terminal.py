@@ -30,9 +30,6 @@ _WIDE = 10_000
 """Width, in columns, of output that does not go to a terminal, if COLUMNS is not set: large enough
 that no line is broken before another program reads it."""
 
-_NARROW = 100
-"""Width, in columns, below which a table leaves as much room as possible for texts."""
-
 PATIENCE = 10.0
 """Seconds after which a line says what is taking so long, if standard error is not a terminal."""
 
@@ -95,32 +92,27 @@ def _moving(
         timer.cancel()
 
 
-def _console(stderr: bool = False, columns: str = "") -> Console:
+def _console(stderr: bool = False) -> Console:
     """A console: FORCE_COLOR also colours piped output, but progress is shown on terminals only."""
     stream = sys.stderr if stderr else sys.stdout
     is_terminal = stream is not None and stream.isatty()
     return Console(
         stderr=stderr,
         force_terminal=False if stderr and not is_terminal else None,
-        width=None if is_terminal or columns else _WIDE,
+        width=None if is_terminal or os.environ.get("COLUMNS") else _WIDE,
         highlight=False,
         markup=False,
         emoji=False,
     )
 
 
-def output(what: RenderableType, columns: str = "") -> None:
-    """Print without trailing blanks."""
-    console = _console(columns=columns)
+def output(what: RenderableType) -> None:
+    """Print a table or a sheet, without trailing blanks; COLUMNS also applies to pipes."""
+    console = _console()
     with console.capture() as printed:
         console.print(what)
     text = "\n".join(line.rstrip() for line in printed.get().split("\n"))
     click.echo(text, nl=False, color=console.color_system is not None)
-
-
-def output_table(what: RenderableType) -> None:
-    """Print a table or a sheet; COLUMNS also applies to pipes."""
-    output(what, os.environ.get("COLUMNS", ""))
 
 
 _WIDEST, _NARROWEST = 96, 20
@@ -137,11 +129,6 @@ def folded(line: str) -> str:
         break_long_words=False,
         break_on_hyphens=False,
     )
-
-
-def is_narrow() -> bool:
-    """Whether tables have little room for texts."""
-    return _console(columns=os.environ.get("COLUMNS", "")).width < _NARROW
 
 
 def complain(what: str, message: str) -> None:

@@ -1,14 +1,15 @@
 """The output of the commands: tables and formula sheets for a terminal.
 
 In:  sheets, bodies, differences, findings.
-Out: renderable objects of the library rich.
+Out: renderable objects of the library rich, or lines.
 
 Only functions that show formulas import SymPy.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+import click
 from rich.console import Group, RenderableType
 from rich.table import Column, Table
 from rich.text import Text
@@ -22,37 +23,20 @@ if TYPE_CHECKING:
     from derive.sheet.formulas import FormulaSheet
 
 
-def listing(sheets: "Iterable[FormulaSheet]", narrow: bool = False) -> RenderableType:
-    """All geometries: g(x), and which parts are in closed form or numerical.
-
-    narrow: whether there is too little room for a table, so that a list is shown
-    """
+def listing(sheets: "Iterable[FormulaSheet]") -> Group:
+    """All geometries: g(x), and which parts are in closed form or numerical."""
     from derive.sheet.notation import text_of
 
-    heads = ("geometry", "g(x)", "closed form", "numerical", "body")
-    rows = [
-        (
-            sheet.geometry.name,
-            text_of(sheet.geometry.g),
-            *(_row(parts) for parts in by_form(sheet.is_closed)),
-            sheet.geometry.title,
-        )
-        for sheet in sheets
-    ]
-    if narrow:
-        return Group(*(_listed(*row) for row in rows))
-    table = Table(*(Column(head, no_wrap=head == "geometry", overflow="fold") for head in heads))
-    for name, *rest in rows:
-        table.add_row(Text(name, style="bold cyan"), *rest)
-    return table
+    return Group(*(_listed(sheet, text_of(sheet.geometry.g)) for sheet in sheets))
 
 
-def _listed(name: str, g: str, closed: str, numerical: str, title: str) -> Group:
-    """One geometry in a list."""
+def _listed(sheet: "FormulaSheet", g: str) -> Group:
     rest = Table.grid(padding=(0, 2, 0, 0))
+    closed, numerical = map(_row, by_form(sheet.is_closed))
     for head, words in (("g(x)", g), ("closed form", closed), ("numerical", numerical)):
         rest.add_row(Text(f"  {head}"), words)
-    return Group(Text.assemble((name, "bold cyan"), f"  {title}"), rest, "")
+    geometry = sheet.geometry
+    return Group(Text.assemble((geometry.name, "bold cyan"), f"  {geometry.title}"), rest, "")
 
 
 def summary(bodies: Iterable[BuiltBody]) -> Table:
@@ -105,14 +89,12 @@ def formulas(sheet: "FormulaSheet") -> Group:
     return Group(Text(sheet.title, style="bold"), *remark, "", table)
 
 
-def drift(found: "Iterable[Difference]") -> Group:
-    """The files that differ from the generated ones, with their differences."""
-    parts: list[RenderableType] = []
+def drift(found: "Iterable[Difference]") -> Iterator[str]:
+    """The files that differ from the generated ones, with their differences, line by line."""
     for difference in found:
-        parts.append(Text(f"{difference.name}: {difference.what}", style="bold red"))
-        if difference.diff:
-            parts += [Text(line, style=_DIFF.get(line[:1], "")) for line in difference.lines]
-    return Group(*parts)
+        yield click.style(f"{difference.name}: {difference.what}", fg="red", bold=True)
+        for line in difference.diff.splitlines():
+            yield click.style(line, fg=_DIFF.get(line[:1]))
 
 
 _DIFF = {"+": "green", "-": "red", "@": "cyan"}

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.command.errors import LostProcess, NotProven, RanAway
+from derive.command.errors import NotProven, RanAway
 from derive.command.processes import Bounds, Report, in_processes
 from tests.tasks import ERRORS, fails, late, meeting, process
 
@@ -80,7 +80,7 @@ def interrupt(what: str, stage: str) -> None:
     ("name", "report", "error"),
     [
         ("proof", silent, NotProven),
-        ("exit", silent, LostProcess),
+        ("exit", silent, RanAway),
         ("wait", interrupt, KeyboardInterrupt),
     ],
 )
@@ -98,7 +98,7 @@ def test_a_failure_does_not_wait_for_the_others(
 def test_a_process_that_is_lost_is_told_with_what_to_do(place: int) -> None:
     items = ["wait", "wait"]
     items.insert(place, "exit")
-    with pytest.raises(LostProcess, match=r"one of 3 processes ended .* --jobs 1"):
+    with pytest.raises(RanAway, match=r"exit: the stage 'begun' crashed, .* --jobs 1"):
         in_processes(fails, items, silent, 3)
 
 
