@@ -5,8 +5,8 @@ Out:  the file with these readings, or an error and the file as it was.
 """
 
 import tomllib
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +19,14 @@ from derive.command import files
 from derive.command.errors import BadClaimsFile
 
 _REMEDY = "add the lines `understood = ...` by hand"
+_refused = partial(
+    files.refused_as, partial(BadClaimsFile, remedy=_REMEDY), what="the file cannot be written"
+)
 
 
 def demand_writable(path: Path) -> None:
     """Raise BadClaimsFile if the file cannot be replaced; call this before asking the user."""
-    with _writing(path):
+    with _refused(path):
         files.demand_writable(path.resolve())
 
 
@@ -43,7 +46,7 @@ def accept(path: Path, readings: Sequence[Reading]) -> None:
     if not is_kept or tomllib.loads(new) != data:
         why = "the layout of this file does not allow the readings to be inserted automatically"
         raise BadClaimsFile(str(path), why, _REMEDY)
-    with _writing(path):
+    with _refused(path):
         target = path.resolve()
         files.write_whole(new.encode(), target, mode=target.stat().st_mode & 0o777)
 
@@ -59,13 +62,3 @@ def _accept(claim: dict[str, Any], understood: str) -> None:
     if "accepted" in claim:
         claim["accepted"] = True
     body += rest
-
-
-@contextmanager
-def _writing(path: Path) -> Iterator[None]:
-    """Raise BadClaimsFile if the file cannot be written."""
-    try:
-        yield
-    except OSError as error:
-        why = f"the file cannot be written ({error.strerror})"
-        raise BadClaimsFile(str(path), why, _REMEDY) from error

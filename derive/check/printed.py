@@ -82,19 +82,21 @@ def may_be_rough(entry: Entry, text: str) -> bool:
 
 def _understood(entry: Entry, place: Place, spelled: Mapping[str, str]) -> str:
     """Return the LaTeX of a claim, or one statement in its display, as text."""
-    reader = Latex(str(place), entry.latex, spelled)
-    if entry.part is None:
-        return reader.understood()
-    found = statements(str(place), entry.latex)
-    if not 1 <= entry.part <= len(found):
-        why = f"part = {entry.part!r} is not the number of a statement in this display"
+    latex, part = entry.latex, entry.part
+    found = statements(str(place), latex)
+    if part is None and len(found) != 1:
+        why = f"the LaTeX has {len(found)} statements"
+        raise place.bad(why, "give the number of one of them as `part`")
+    part = part or 1
+    if not 1 <= part <= len(found):
+        why = f"part = {part!r} is not the number of a statement in this display"
         raise place.bad(why, f"write a number from 1 to {len(found)}")
-    chosen = found[entry.part - 1]
-    if (chosen.condition or chosen.order) and not (entry.require or entry.approach):
-        says = plain(chosen.condition) or rf"{chosen.small} \to 0"
+    chosen = found[part - 1]
+    if (chosen.conditions or chosen.order) and not (entry.require or entry.approach):
+        says = ", ".join(map(plain, chosen.conditions)) or rf"{chosen.small} \to 0"
         why = f"the display also says {says}, but neither `require` nor `as` is given"
         raise place.bad(why, "give the condition in `require`, or the limit in `as`")
-    return reader.equation(chosen.tokens)
+    return Latex(str(place), latex, spelled).read("equation", chosen.tokens)
 
 
 def _usual(names: Names) -> dict[str, str]:

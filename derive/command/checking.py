@@ -8,7 +8,7 @@ import click
 
 from derive.check.accept import accept, demand_writable
 from derive.check.claim import Paper
-from derive.check.draft import demand_new, draft, write
+from derive.check.draft import demand_new, draft_claims, write
 from derive.check.userfile import built_in, open_readings, read_claims
 from derive.command.terminal import path_of, status
 
@@ -22,15 +22,16 @@ def write_draft(file: Path | None, new: Path, inline: bool) -> None:
         raise click.UsageError("--draft reads a paper: give FILE, in LaTeX")
     demand_new(new)
     with status("reading the displayed equations"):
-        made = draft(file, inline)
+        made = draft_claims(file, inline)
     write(made, new)
-    click.echo(f"{made.environments} displayed equations with {len(made.parts)} statements")
-    named, symbols = made.named
+    symbols = made.names().values()
+    named = sum(map(bool, symbols))
+    click.echo(f"{made.environments} displayed equations with {len(made.claims)} statements")
     click.echo(f"Wrote {path_of(new.absolute())}: {made.understood} statements read")
-    click.echo(f"{symbols} symbols, {named} with a proposed meaning")
-    for line in made.unread:
+    click.echo(f"{len(symbols)} symbols, {named} with a proposed meaning")
+    for line in made.told("unchecked"):
         click.echo(f"not read: {line}")
-    for line in made.notes:
+    for line in made.told("note"):
         click.echo(f"note: {line}")
 
 

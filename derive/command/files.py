@@ -10,11 +10,12 @@ import errno
 import os
 import secrets
 import signal
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, suppress
+from functools import partial
 from pathlib import Path
 
-from derive.command.errors import BadTarget
+from derive.command.errors import BadTarget, UserError
 
 MARK = '<meta name="generator" content="derive '
 """A tag in every page made by a command of this package; only such pages are replaced."""
@@ -92,16 +93,23 @@ def signals_held_back() -> Iterator[None]:
 
 
 @contextmanager
-def refused(path: Path, option: str = "--out") -> Iterator[None]:
-    """Raise BadTarget if the system does not allow what the block does with a path.
-
-    option: the option that gave the path
-    """
+def refused_as(
+    refusal: Callable[[str, str], UserError], path: Path, what: str = "cannot be written"
+) -> Iterator[None]:
+    """Raise `refusal` if the system does not allow what the block does with a path."""
     try:
         yield
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
-        raise BadTarget(str(path), f"cannot be written ({reason})", option) from error
+        raise refusal(str(path), f"{what} ({reason})") from error
+
+
+def refused(path: Path, option: str = "--out") -> AbstractContextManager[None]:
+    """Raise BadTarget if the system does not allow what the block does with a path.
+
+    option: the option that gave the path
+    """
+    return refused_as(partial(BadTarget, option=option), path)
 
 
 def write_whole(content: bytes, path: Path, mode: int = 0o644) -> None:

@@ -16,8 +16,8 @@ _LONGEST_LINE = 300
 """A formula in the text must have fewer characters than this."""
 _EXPANDED = 20_000
 """The largest number of characters in a display after its macros are expanded."""
-_PASSES = 10
-"""The largest nesting depth of macros that are expanded."""
+_EXPANSIONS = 1000
+"""The largest number of macros that are expanded in a display."""
 
 _ROWS = ("align", "alignat", "flalign", "gather", "eqnarray")
 _KINDS = "|".join(("equation", "multline", "displaymath", "math", *_ROWS))
@@ -155,36 +155,23 @@ def _closed(text: str, at: int) -> int:
 
 def _expanded(latex: str, macros: Mapping[str, tuple[int, str]]) -> str:
     """Expand macros, as long as the display does not become too long."""
-    for _ in range(_PASSES):
-        made, position = "", 0
-        for match in re.finditer(r"\\[A-Za-z]+", latex):
-            if match.start() < position or match[0] not in macros:
-                continue
-            count, body = macros[match[0]]
-            made, position = made + latex[position : match.start()], match.end()
-            given = list[str]()
-            for _argument in range(count):
-                start = position + len(latex[position:]) - len(latex[position:].lstrip())
-                position = _closed(latex, start)
-                one = latex[start:position]
-                given.append(one[1:-1] if one[:1] == "{" else one)
-            for n, piece in enumerate(re.split(r"#([1-9])", body)):
-                made = _joined(made, "".join(given[int(piece) - 1 :][:1]) if n % 2 else piece)
-            if len(made) > _EXPANDED:
-                return latex
-            if latex[position : position + 1].isalpha():
-                made = _joined(made, latex[position])
-                position += 1
-        if not position:
+    for _ in range(_EXPANSIONS):
+        used = (each for each in re.finditer(r"(\\[A-Za-z]+)\s*", latex) if each[1] in macros)
+        if (found := next(used, None)) is None:
             break
-        latex = made + latex[position:]
+        (count, body), end, given = macros[found[1]], found.end(), list[str]()
+        made = f"{latex[: found.start()]} "
+        for _argument in range(count):
+            start, end = end, _closed(latex, end)
+            given.append(re.sub(r"^\{(.*)\}$", r"\1", latex[start:end], flags=re.DOTALL))
+            end += len(latex[end:]) - len(latex[end:].lstrip())
+        for n, piece in enumerate(re.split(r"#([1-9])", body)):
+            made += f" {''.join(given[int(piece) - 1 :][:1])}" if n % 2 else piece
+        made += f" {latex[end:]}"
+        if len(made) > _EXPANDED:
+            break
+        latex = re.sub(" +", " ", made)
     return latex
-
-
-def _joined(before: str, after: str) -> str:
-    """Join texts, with a space where a letter would lengthen the command before it."""
-    is_glued = after[:1].isalpha() and re.search(r"\\[A-Za-z]+$", before[-80:])
-    return f"{before} {after}" if is_glued else before + after
 
 
 # ------------------------------------------------------------------ displays and rows

@@ -14,16 +14,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from itertools import groupby
 from typing import Any
 
 from lark import Lark, UnexpectedToken
 
-from derive.command.errors import BadFormula
-from derive.reading.lexer import GREEK, Token, Unclear, derivative, scan, tokens_of
-from derive.reading.typed import EXPONENT, FRACTION, FUNCTION, ROOT, Limits, transformer, typed
+from derive.reading.lexer import GREEK, Token, Unclear, plain, refusal, scan, tokens_of
+from derive.reading.typed import transformer
 
 _LONGEST = 2000
 """The largest number of characters in an equation."""
+_RELATIONS = frozenset(("EQUAL", "ORDER", "ROUGH", "NE", "TO"))
 
 
 @dataclass(frozen=True)
@@ -39,63 +40,36 @@ class Latex:
     text: str
     spellings: Mapping[str, str]
 
-    def understood(self) -> str:
-        """Return an equation as text; raise BadFormula if there is not exactly one reading."""
+    def read(self, kind: str, tokens: Sequence[Token]) -> str:
+        r"""Return tokens of the text as typed text.
+
+        Raises BadFormula if there is not exactly one reading.
+
+        kind: `equation`, `conditions` such as -a < x < c and b > 0, or `approach`, which is a
+        limit such as c-x \to 0
+        """
+        parser = _parser().parse_interactive(start=kind)
         try:
-            if len(self.text) > _LONGEST:
-                why = f"the equation has {len(self.text)} characters, and at most {_LONGEST}"
-                remedy = "split the equation, or shorten it with new symbols"
-                raise Unclear(_LONGEST, f"{why} are read", remedy)
-            return self.equation([each for each in tokens_of(self.text) if each.type != "GAP"])
-        except Unclear as error:
-            raise self._refusal(error) from error
-
-    def equation(self, tokens: Sequence[Token]) -> str:
-        """Return tokens of the text that form an equation as typed text; raises BadFormula."""
-        kinds = ("EQUAL", "ORDER", "ROUGH")
-        between = [n for n, t in enumerate(tokens) if t.type in kinds and not t.depth]
-        if len(between) != 1:
-            at = tokens[between[1]].at if between else len(self.text)
-            why = "there are two relations here" if between else "there is no relation here"
-            raise self._refusal(Unclear(at, why, "write one equation with exactly one relation"))
-        relation = tokens[between[0]]
-        left = self._read("side", tokens[: between[0]], relation.at)
-        right = self._read("side", tokens[between[0] + 1 :])
-        return f"{left} {typed(relation)} {right}"
-
-    def condition(self, tokens: Sequence[Token]) -> str:
-        """Return a condition such as -a < x < c and b > 0 as text; raises BadFormula."""
-        return self._read("conditions", tokens)
-
-    def approach(self, tokens: Sequence[Token]) -> str:
-        r"""Return a limit as text, such as c - x -> 0 for c-x \to 0; raises BadFormula."""
-        return self._read("approach", tokens)
-
-    def _read(self, start: str, tokens: Sequence[Token], end: int | None = None) -> str:
-        parser = _parser().parse_interactive(start=start)
-        try:
+            if (count := len(plain(tokens))) > _LONGEST:
+                why = f"this has {count} characters, and at most {_LONGEST} are read"
+                raise Unclear(tokens[0].at, why, "split it, or shorten it with new symbols")
             for token in _terminals(tokens, self.spellings):
-                kind = _literals().get(token.type, token.type)
-                parser.feed_token(token._replace(type=kind))  # type: ignore[arg-type]
+                type_ = _literals().get(token.type, token.type)
+                parser.feed_token(token._replace(type=type_))  # type: ignore[arg-type]
             return str(parser.feed_eof())  # type: ignore[no-untyped-call]
         except UnexpectedToken as error:
-            token = Token("$END", "", len(self.text) if end is None else end)
+            token = Token("$END", "", len(self.text))
             token = error.token if isinstance(error.token, Token) else token
-            raise self._refusal(_unread(token, parser.parser_state.value_stack)) from error
+            unclear = _unread(token, parser.parser_state.value_stack)
+            raise refusal(self.where, self.text, unclear) from error
         except Unclear as error:
-            raise self._refusal(error) from error
-
-    def _refusal(self, error: Unclear) -> BadFormula:
-        """Return the error for a place in the text."""
-        start = self.text.rfind("\n", 0, error.at) + 1
-        line = self.text[start:].partition("\n")[0]
-        return BadFormula(self.where, line, error.at - start, error.why, error.remedy)
+            raise refusal(self.where, self.text, error) from error
 
 
 @cache
 def _parser() -> Lark:
     grammar = (files("derive.reading") / "latex.lark").read_text(encoding="utf-8")
-    starts = ["side", "conditions", "approach"]
+    starts = ["equation", "conditions", "approach"]
     return Lark(grammar, parser="lalr", lexer="basic", start=starts, transformer=transformer())
 
 
@@ -109,10 +83,16 @@ def _literals() -> Mapping[str, str]:
 
 
 def _terminals(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterator[Token]:
-    """Join the tokens of every symbol, and tell opening bars from closing ones."""
+    """Join the tokens of every symbol on each side of the relations."""
+    for is_side, part in groupby(tokens, lambda t: bool(t.depth) or t.type not in _RELATIONS):
+        found = list(part)
+        yield from _of_side(found, spellings) if is_side else found
+
+
+def _of_side(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterator[Token]:
+    """Join the tokens of every symbol."""
     bound, texts = _bound(tokens), [each.text for each in tokens]
-    cuts = {_cut(spelling): name for spelling, name in spellings.items()}
-    bars, position, before = dict[int, Token](), 0, Token("", "", 0)
+    position, cuts = 0, {_cut(each): name for each, name in spellings.items()}
     while position < len(tokens):
         token = tokens[position]
         found = [cut for cut in cuts if tuple(texts[position : position + len(cut)]) == cut]
@@ -123,31 +103,8 @@ def _terminals(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterato
             token = token._replace(type="SYMBOL")
         elif token.text == r"\Gamma" and texts[position + 1 : position + 2] == ["("]:
             token = token._replace(type="FUNC")
-        elif derivative(tokens, position) == position + 5:
-            why = "d/dx before its operand is not supported"
-            raise Unclear(token.at, why, "write it as text, diff(f, x)")
         position += token.size if token.type == "SYMBOL" else 1
-        for opened in [each for depth, each in bars.items() if depth > token.depth]:
-            raise Unclear(opened.at, *_BAR)
-        if token.text == "|":
-            token = token._replace(type="RBAR" if bars.pop(token.depth, None) else "LBAR")
-            if token.type == "LBAR":
-                bars[token.depth] = token
-        if token.type == before.type == "NUMBER":
-            why = "there are two numbers with no operator between them"
-            raise Unclear(token.at, why, "put \\cdot between them")
-        if before.type == "FRAC" and token.type == "NUMBER" and token.size > 2:
-            raise Unclear(token.at, *FRACTION)
-        if before.type == "FRAC" and token.type == "NUMBER" and token.size == 2:  # as in \frac12
-            yield Token("NUMBER", token.text[0], token.at)
-            token = Token("NUMBER", token.text[1], token.at + 1)
-        before = token
         yield token
-    for opened in bars.values():
-        raise Unclear(opened.at, *_BAR)
-
-
-_BAR = ("this | is not closed", "add |")
 
 
 @cache
@@ -170,44 +127,35 @@ def _bound(tokens: Sequence[Token]) -> frozenset[str]:
 
 # ------------------------------------------------------------------ refusals
 
-_UNFINISHED = {
-    "POWER": (0, EXPONENT),
-    "SQRT": (0, ROOT),
-    "FRAC": (1, FRACTION),
-    "INT": (3, ("this integral lacks a limit", "write both limits, as in \\int_{a}^{b}")),
-    "SUM": (7, ("this sum lacks a limit", "write both limits, as in \\sum_{k=1}^{n}")),
-    "LIM": (5, ("this limit is incomplete", "write it as \\lim_{x \\to a}")),
+_FORMS = {
+    "FRAC": r"\frac{a}{b}",
+    "SQRT": r"\sqrt{a}",
+    "POWER": "a^{b}",
+    "INT": r"\int_{a}^{b} s \,\mathrm{d}s",
+    "SUM": r"\sum_{k=1}^{n} k",
+    "LIM": r"\lim_{x \to a} x",
+    "BEGIN": r"\begin{cases} a & x < b \\ c & \text{otherwise} \end{cases}",
+    **dict.fromkeys(("FUNC", "CIRCULAR"), r"\sin(a)"),
 }
-"""What is unclear if a token does not fit after one of these and at most so many others."""
+"""How what begins with a terminal is written."""
+_BY_TEXT = "write the claim as text, with numbers in the units of the file"
 
 
 def _unread(token: Token, stack: Sequence[Any]) -> Unclear:
     """Return the reason why a token does not fit after what is on the parser's stack."""
     known = {each.name for rule in _parser().rules for each in rule.expansion if each.is_term}
     if token.type == "TEXT":
-        why = f"the words {token.words!r} are not understood here"
-        remedy = "write the claim as text, with numbers in the units of the file"
-        return Unclear(token.at, why, remedy)
+        return Unclear(token.at, f"the words {token.words!r} are not understood here", _BY_TEXT)
+    if token.type in ("REST", "DOTS"):
+        why = "a remainder is only understood as the last term of an equation, as in + O(x^2)"
+        return Unclear(token.at, why, "write the equation without it, with `as` and `order`")
+    if token.type == "UNDERSCORE":
+        why = "this index is not understood here"
+        return Unclear(token.at, why, "declare the symbol with its index under [latex]")
     if token.type not in {"$END", *known}:
         why = f"{token.text} is neither a declared symbol nor a supported command"
         return Unclear(token.at, why, "declare it under [latex], or write the claim as text")
-    is_end = token.type in ("$END", "RPAR", "RBRACE", "RSQB", "RBAR")
-    top = stack[-1] if stack else None
-    if isinstance(top, Token) and top.type in FUNCTION:
-        if is_end:
-            return Unclear(token.at, f"{top.text} has no argument", "add one")
-        why = "this cannot be the argument of a function"
-        return Unclear(token.at, why, "put the argument in parentheses")
-    for n, each in reversed([(n, t) for n, t in enumerate(stack) if isinstance(t, Token)]):
-        most, reason = _UNFINISHED.get(each.type, (-1, ("", "")))
-        limited = any(isinstance(other, Limits) for other in stack[n : n + 2])
-        if len(stack) - n - 1 <= most and not limited:
-            is_there = each.type in ("POWER", "SQRT", "FRAC")
-            return Unclear(token.at if is_there else each.at, *reason)
-        if each.type == "INT" and is_end:
-            why = "the end of this integral is unclear"
-            return Unclear(each.at, why, "end it with a differential, as \\mathrm{d}s")
-    if token.type in ("UNDERSCORE", "DIFF"):
-        return Unclear(token.at, f"{token.text} is not allowed here", "remove it")
-    why = "the LaTeX cannot be read from here on"
-    return Unclear(token.at, why, "put \\cdot between factors, or write the claim as text")
+    why, opened = "the LaTeX cannot be read from here on", [getattr(t, "type", "") for t in stack]
+    form = next((_FORMS[each] for each in reversed(opened) if each in _FORMS), "")
+    remedy = f"complete it as in {form}" if form else r"put \cdot between factors"
+    return Unclear(token.at, why, f"{remedy}, or write the claim as text")

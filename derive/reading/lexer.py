@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from derive.command.errors import BadFormula
 from derive.reading.words import COMMANDS, FUNCTIONS
 
 _DEEPEST = 60
@@ -106,10 +107,15 @@ CLAUSES = frozenset(word.split()[0] for word in _KINDS if _KINDS[word] != "ELSE"
     *("which", "that", "since")
 }
 """Words that start a clause."""
-_VALUES = (r"\begin{cases}", r"\begin{dcases}", r"\begin{rcases}")
-_BLOCKS = tuple(rf"\begin{{{name}}}" for name in ("split", "aligned", "gathered", "alignedat"))
-"""Environments whose rows have a value and a condition each, and those whose rows are lines."""
-_CURLY = r"\{"
+_ENVIRONMENTS = {
+    **dict.fromkeys(("split", "aligned", "gathered", "alignedat"), "LINES"),
+    **dict.fromkeys(("cases", "dcases", "rcases", r"\{cases", r"\{dcases", r"\{array"), "BEGIN"),
+    "array": "FRAME",
+}
+"""Environments whose rows are lines, or have a value and a condition each; an array is neither,
+unless it encloses all of a display.  Others are refused."""
+_AROUND = frozenset(("{", "BEGIN", "LINES", "FRAME"))
+"""Brackets and environments that say nothing if they enclose all of a display."""
 _UNITS = frozenset("gmsJNW")
 """Units of one letter.  K may be an elliptic integral."""
 
@@ -137,9 +143,9 @@ _TOKEN = re.compile(
         \s*\{{?\s*(?P<relation>{_ROUGHLY})\s*\}}?)
     | (?P<dots>\.\s*\.\s*\.)
     | (?P<row>\\\\\*?(?:\[[^\]]*\])?)
-    | (?P<begin>(?P<opening>(?:(?:\\left\s*)?\\\{{\s*)?\\begin\s*\{{[A-Za-z]+\*?\}})
+    | (?P<begin>(?:\\left\s*)?(?P<curly>\\\{{)?\s*\\begin\s*\{{(?P<opening>[A-Za-z]+\*?)\}}
         (?:(?:(?<=array\}})|(?<=edat\}}))\s*\{{[^{{}}]*\}})?)
-    | (?P<end>(?P<ending>\\end\s*\{{[A-Za-z]+\*?\}})(?:\s*\\right\s*\.)?)
+    | (?P<end>\\end\s*\{{(?P<ending>[A-Za-z]+\*?)\}}(?:\s*\\right\s*\.)?)
     | (?P<mixed>\\(?:text|mbox|hbox|textrm|textnormal)\s*
         \{{(?P<mixture>(?:[^{{}}$]*\$[^$]*\$)+[^{{}}$]*)\}})
     | (?P<roman>\{{\s*\\(?:rm|it|bf|sf)(?![A-Za-z])\s*(?P<old>[^{{}}\\]*)\}})
@@ -173,6 +179,9 @@ class Token(NamedTuple):
         return self.text.removeprefix(r"\text{").removesuffix("}")
 
 
+_NO_TOKEN = Token("", "", 0)
+
+
 @dataclass
 class Unclear(Exception):
     """The LaTeX cannot be read, or can be read in two ways, from a place on."""
@@ -182,7 +191,14 @@ class Unclear(Exception):
     remedy: str
 
 
-def plain(tokens: list[Token]) -> str:
+def refusal(where: str, latex: str, error: Unclear) -> BadFormula:
+    """Return the error for a place in LaTeX, with the line that holds it."""
+    start = latex.rfind("\n", 0, error.at) + 1
+    line = latex[start:].partition("\n")[0]
+    return BadFormula(where, line, error.at - start, error.why, error.remedy)
+
+
+def plain(tokens: Sequence[Token]) -> str:
     """Return the plain LaTeX of tokens."""
     return re.sub(r" (?=[_^'})\]])|(?<=[{(\[_^]) ", "", " ".join(each.text for each in tokens))
 
@@ -215,12 +231,21 @@ def _command(match: re.Match[str], before: list[Token]) -> list[Token]:
     return [Token(kind, other or text, match.start())]
 
 
-def _frame(kind: str, text: str, at: int) -> Token:
-    return Token(kind, re.sub(r"\\left|\s", "", text), at)
+def _begin(match: re.Match[str], _: list[Token]) -> list[Token]:
+    name = (match["curly"] or "") + match["opening"]
+    return [
+        Token(_ENVIRONMENTS.get(name, "FRAME"), rf"\begin{{{match['opening']}}}", match.start())
+    ]
 
 
-def _number(match: re.Match[str], _: list[Token]) -> list[Token]:
+def _end(match: re.Match[str], _: list[Token]) -> list[Token]:
+    return [Token("END", rf"\end{{{match['ending']}}}", match.start())]
+
+
+def _number(match: re.Match[str], before: list[Token]) -> list[Token]:
     text = match[0].replace("{,}", ".")
+    if text.isdigit() and before and before[-1].type == "FRAC":  # as in \frac12
+        return [Token("NUMBER", each, match.start() + n) for n, each in enumerate(text)]
     return [Token("NUMBER", text, match.start(), size=len(text))]
 
 
@@ -228,7 +253,8 @@ def _order(match: re.Match[str], before: list[Token]) -> list[Token]:
     """O(...) and o(...) are remainders after a sign."""
     if match[0] in "Oo" and (not before or before[-1].type != "SIGN"):
         return [Token("LETTER", match[0], match.start())]
-    return [Token("SMALLER" if match[0] == "o" else "REST", match[0], match.start())]
+    letter = "o" if match[0] == "o" else "O"
+    return [Token("REST", rf"\mathcal{{{letter}}}", match.start())]
 
 
 def _stacked(match: re.Match[str], _: list[Token]) -> list[Token]:
@@ -287,15 +313,19 @@ _READERS: Mapping[str, Callable[[re.Match[str], list[Token]], list[Token]]] = {
     "number": _number,
     "order": _order,
     "stacked": _stacked,
-    "begin": lambda match, _: [_frame("BEGIN", match["opening"], match.start())],
-    "end": lambda match, _: [_frame("END", match["ending"], match.start())],
+    "begin": _begin,
+    "end": _end,
     "mixed": _mixed,
     "roman": _words,
     "words": _words,
 }
 
 
-_CLOSING = {"(": ")", "{": "}", "[": "]", "BEGIN": "END"}
+_CLOSING = {
+    **{"(": ")", "{": "}", "[": "]", "LBAR": "RBAR"},
+    **dict.fromkeys(("BEGIN", "LINES", "FRAME"), "END"),
+}
+_PUNCTUATION = frozenset(("COMMA", ".", ";", "GAP"))
 
 
 def partner(tokens: Sequence[Token], at: int) -> int:
@@ -309,83 +339,85 @@ def partner(tokens: Sequence[Token], at: int) -> int:
 
 
 def _unframed(tokens: list[Token]) -> list[Token]:
-    """Remove braces or an environment around all; the rows of this environment are statements."""
-    first, end = (tokens[0], partner(tokens, 0)) if tokens else (None, 0)
-    if first is None or first.type not in ("{", "BEGIN", "GAP") or end == len(tokens):
-        return tokens
-    inside, after = tokens[1:end], tokens[end + 1 :]
-    if first.type == "BEGIN":
-        known = first.text.removeprefix(_CURLY) in (*_VALUES, *_BLOCKS, r"\begin{array}")
-        alone = all(each.type in ("COMMA", ".", ";", "GAP") for each in after)
-        known = known and tokens[end].text[5:] in first.text
-        if not (known and alone) or any(each.type == "BEGIN" for each in inside):
-            return tokens
-    elif first.type == "{" and (after or tokens[end].type != "}"):
-        return tokens
-    return _unframed([*inside, *after])
+    """Mark braces and environments around all; their rows are lines of the display."""
+    made, start, end = list(tokens), 0, len(tokens)
+    while start < end and made[start].type in (*_AROUND, "GAP"):
+        close = partner(made[:end], start)
+        if made[start].type != "GAP":
+            if close == end or any(t.type not in _PUNCTUATION for t in made[close + 1 : end]):
+                break
+            if made[start].text[len(r"\begin{") : -1] in ("", *_ENVIRONMENTS):
+                made[start] = made[start]._replace(type="LINES")
+            end = close
+        start += 1
+    return made
 
 
 def _nested(tokens: list[Token]) -> list[Token]:
     """Give each token its depth; rows and columns outside cases are lines and wide spaces."""
-    made, opened, remedy = list[Token](), list[Token](), "correct the brackets"
-    for n, token in enumerate(tokens):
-        kind, follows = token.type, tokens[n + 1].type if n + 1 < len(tokens) else ""
+    made, opened = list[Token](), list[Token]()
+    for token, following in zip(tokens, [*tokens[1:], _NO_TOKEN], strict=True):
+        if token.type == "|":
+            is_right = bool(opened) and opened[-1].type == "LBAR"
+            token = token._replace(type="RBAR" if is_right else "LBAR")
+        kind, around = token.type, [each for each in opened if each.type != "LINES"]
+        in_cases = any(each.type == "BEGIN" for each in around)
         if kind in _CLOSING.values():
-            last = opened.pop() if opened else token
-            name = last.text.removeprefix(_CURLY).replace("begin", "end")
-            if _CLOSING.get(last.type) != kind or (kind == "END" and name != token.text):
-                raise Unclear(token.at, "a closing bracket matches nothing", remedy)
-            kind = "BLOCK" if last.text in _BLOCKS else kind
-        in_cases = any(each.type == "BEGIN" and each.text not in _BLOCKS for each in opened)
-        if kind in ("LINE", "&"):
-            inner = any(each.text not in _BLOCKS for each in opened)
-            plain_kind = "LINE" if kind == "LINE" and not inner else "GAP"
-            kind = ("ROW", "COL")[kind == "&"] if in_cases else plain_kind
-        elif kind == "BEGIN" and token.text not in (*_VALUES, *_BLOCKS):
-            known = token.text in (_CURLY + each for each in (*_VALUES, r"\begin{array}"))
-            kind = kind if known else "FRAME"
-        is_end = in_cases and kind in ("COMMA", ".", ";") and follows in ("LINE", "&", "END")
-        if not is_end and token.text not in _BLOCKS and kind != "BLOCK":
-            depth = sum(each.text not in _BLOCKS for each in opened)
-            made.append(token._replace(type=kind, depth=depth))
-        if token.type in _CLOSING:
+            if not opened:
+                why = "a closing bracket matches nothing"
+                raise Unclear(token.at, why, "correct the brackets")
+            last = opened.pop()
+            if _closing(last) != token.text:
+                raise _unclosed(last)
+            if last.type != "LINES":
+                made.append(token._replace(depth=len(around) - 1))
+            continue
+        if kind in _CLOSING:
             opened.append(token)
-        if len(opened) > _DEEPEST:
+        if kind == "FRAME":
+            why = f"{token.text} inside a display is not supported"
+            raise Unclear(token.at, why, "write it as text")
+        if kind == "OVER" and not around:
+            why = r"\over divides the whole display"
+            raise Unclear(token.at, why, "put braces around the fraction")
+        if len(around) >= _DEEPEST:
             raise Unclear(token.at, "brackets are nested too deeply", "use fewer brackets")
+        if kind in ("LINE", "&"):
+            outside = "GAP" if around or kind == "&" else "LINE"
+            kind = ("ROW" if kind == "LINE" else "COL") if in_cases else outside
+        is_end = in_cases and kind in _PUNCTUATION and following.type in ("LINE", "&", "END")
+        if kind != "LINES" and not (is_end and kind != "GAP"):
+            made.append(token._replace(type=kind, depth=len(around)))
     if opened:
-        last = opened[-1]
-        closing = _CLOSING[last.type] if last.type != "BEGIN" else last.text.replace("begin", "end")
-        raise Unclear(last.at, f"this {last.text} is not closed", f"add {closing}")
+        raise _unclosed(opened[-1])
     return made
 
 
-def derivative(tokens: Sequence[Token], at: int) -> int:
-    """Return where the denominator of a quotient of differentials begins; 0 if there is none."""
-    if [each.type for each in tokens[at : at + 2]] != ["FRAC", "{"]:
-        return 0
-    below = partner(tokens, at + 1) + 2
-    texts = [each.text for each in (*tokens[at + 2 : at + 3], *tokens[below - 1 : below + 1])]
-    return below if len(texts) == 3 and texts[1] == "{" and {texts[0], texts[2]} <= _D else 0
+def _closing(token: Token) -> str:
+    """Return the text that closes a bracket or an environment."""
+    return _CLOSING.get(token.text, token.text.replace("begin", "end"))
 
 
-_D = frozenset(("d", r"\dd"))
+def _unclosed(token: Token) -> Unclear:
+    return Unclear(token.at, f"this {token.text} is not closed", f"add {_closing(token)}")
 
 
 def _differentials(tokens: list[Token]) -> list[Token]:
     r"""Read d in derivatives, and before a variable of integration, as \dd."""
-    made = list(tokens)
-    for n in range(len(made)):
-        if below := derivative(made, n):
-            for at in (n + 2, below):
-                made[at] = made[at]._replace(type="DIFF", text=r"\dd")
-    free = [
-        n
-        for n, each in enumerate(made)
-        if each.type == "DIFF" and made[n - 2].type not in ("FRAC", "}")
+    texts, read = [each.text for each in tokens], set[int]()
+    for above in (n + 2 for n, each in enumerate(tokens) if each.type == "FRAC"):
+        below = partner(tokens, above - 1) + 2
+        starts = (texts[above - 1 : above + 1], texts[below - 1 : below + 1])
+        if all(each in (["{", "d"], ["{", r"\dd"]) for each in starts):
+            read |= {above, below}
+    is_upright = any(each.type == "DIFF" and n not in read for n, each in enumerate(tokens))
+    integrals = 0
+    for n, each in enumerate(tokens[:-1]):
+        integrals += each.type == "INT" and not is_upright
+        if integrals and n not in read and each.text == "d" and tokens[n + 1].type == "LETTER":
+            read.add(n)
+            integrals -= 1
+    return [
+        each._replace(type="DIFF", text=r"\dd") if n in read else each
+        for n, each in enumerate(tokens)
     ]
-    integrals, seen = sum(each.type == "INT" for each in made) * (not free), False
-    for n, token in enumerate(made[:-1]):
-        seen = seen or token.type == "INT"
-        if seen and integrals and token.text == "d" and made[n + 1].type == "LETTER":
-            made[n], integrals = token._replace(type="DIFF", text=r"\dd"), integrals - 1
-    return made

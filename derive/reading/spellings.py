@@ -21,11 +21,15 @@ _ACCENTS = {
 }
 _SIGNS = {"+": "plus", "-": "minus", "*": "star", "'": "prime"}
 _ACCENT = "|".join(map(re.escape, _ACCENTS))
-_PART = r"(?:[A-Za-z]|\d+|\\[A-Za-z]+) "
-_INDEX = rf"_ (?:{_PART}|[+-] |\{{ (?:[+-] |(?:{_PART}|[(),] )*{_PART}(?:[()] )*(?:, [+-] )?)\}} )"
+_COMMAND = rf"(?:{_GREEK}|\\(?:pi|infty|min|max|perp|parallel|circ))"
+_PART = rf"(?:[A-Za-z]|\d+|{_COMMAND}) "
+_INDEX = (
+    rf"_ (?:{_PART}|[*+-] "
+    rf"|\{{ (?:[*+-] |(?:{_PART}|[(),] )*{_PART}(?:[()] )*(?:, [+-] )?)\}} )"
+)
 _RAISED = (
     r"\^ (?:[*'+-] |\{ (?:[*'+-] "
-    rf"|(?:\( |{_LETTER}(?=[^}}]))(?:[A-Za-z] |\\[A-Za-z]+ |[(),] )+)\}} )"
+    rf"|(?:\( |{_LETTER}(?=[^}}]))(?:[A-Za-z] |{_COMMAND} |[(),] )+)\}} )"
 )
 _HUNG = rf"(?:' |{_INDEX}|{_RAISED})*"
 _BODY = rf"(?:{_LETTER}|(?:{_ACCENT}) (?:{_LETTER}|\{{ {_LETTER}{_HUNG}\}} )){_HUNG}"

@@ -6,7 +6,7 @@ A rule has a template here, or a method of the transformer.  A method refuses wh
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, NoReturn
+from typing import Any
 
 from lark import Transformer, v_args
 
@@ -22,29 +22,11 @@ _TYPED = {
 """The typed text of relations, signs, constants and functions."""
 
 
-FRACTION = (
-    "the numerator and denominator of this fraction are unclear",
-    "put each of them in braces",
-)
-ROOT = ("the end of this root is unclear", "use braces")
-EXPONENT = (
-    "without braces, TeX takes only one character as the exponent",
-    "put the exponent in braces",
-)
+_SINGLE = ("without braces, TeX takes only one character here", "use braces")
 _ARGUMENT = (
     "the end of the function's argument is unclear",
     "put the function and its argument in parentheses, as in (\\sin(a)) b",
 )
-_UNCLEAR = {
-    "unclear_tower": ("a power of a power needs braces", "put one of the powers in braces"),
-    "unclear_comma": (
-        "it is unclear whether this comma separates thousands",
-        "write a decimal point, or no comma",
-    ),
-    "unclear_cases": ("there are no cases here", "add at least one"),
-    "unclear_row": ("this row has no condition", "write \\text{otherwise}, or a condition"),
-}
-"""Why these rules of the grammar are refused."""
 _LEVELS = {"": 0, "product": 1, "power": 2, "atom": 3}
 _TEMPLATES = {
     "modulus": ("atom", "abs({1})"),
@@ -61,10 +43,8 @@ _TEMPLATES = {
 """The precedence and the typed text of rules, with the parts of the rule by their numbers."""
 _BOUND = {"series": r"\b{1.along}\b", "limit": ""}
 """A pattern for terms that may belong to the sum or limit before them."""
-_SINGLE = {"fraction": FRACTION, "root": ROOT, "nth_root": ROOT}
-"""Rules that take a single token if there are no braces, and what is unclear otherwise."""
-FUNCTION = frozenset(("FUNC", "CIRCULAR"))
-_AFTER_BRACKETS = FUNCTION | {"OPERATOR", "FRAC", "SQRT"}
+_FUNCTIONS = frozenset(("FUNC", "CIRCULAR"))
+_AFTER_BRACKETS = _FUNCTIONS | {"OPERATOR", "FRAC", "SQRT"}
 """What may follow an argument whose end is shown by brackets or bars."""
 
 
@@ -114,12 +94,10 @@ class _Typed(Transformer[Any, Any]):
         """Return what makes the typed text of a rule that has no method."""
         if rule in _TEMPLATES:
             return lambda parts: _from_template(rule, *parts)
-        if rule in _UNCLEAR:
-            return lambda parts: _refused(rule, *parts)
         raise AttributeError(rule)
 
-    def side(self, code: _Code) -> str:
-        return code.text
+    def equation(self, left: _Code, relation: Token, right: _Code) -> str:
+        return f"{left} {typed(relation)} {right}"
 
     def approach(self, left: _Code, _: Token, right: _Code) -> str:
         return f"{left} -> {right}"
@@ -162,8 +140,9 @@ class _Typed(Transformer[Any, Any]):
         if left.slashed and not operator:
             why = "it is unclear whether this belongs to the denominator"
             raise Unclear(at, why, "write \\frac, or use parentheses")
-        if left.kind == "NUMBER" and kind == "FRAC" and re.fullmatch(r"[\d.]+/[\d.]+", right.text):
-            why = "a number before a numerical fraction may mean a sum, as in 3 1/2"
+        is_number = re.fullmatch(r"[\d./]+", right.text) and not operator
+        if is_number and re.search(r"(?<![\w.])[\d.]+$", left.text):
+            why = "two numbers stand side by side, which may mean a sum, as in 3 1/2"
             raise Unclear(at, why, "put \\cdot or + between them")
         sign = typed(operator) if operator else "*"
         factor = f"{right:power}" if sign == "/" else f"{right:product}"
@@ -189,7 +168,7 @@ class _Typed(Transformer[Any, Any]):
 
     def short(self, code: _Code) -> _Code:
         if code.size > 1:
-            raise Unclear(code.at, *EXPONENT)
+            raise Unclear(code.at, *_SINGLE)
         return code
 
     def group(self, inner: _Code) -> _Code:
@@ -203,19 +182,18 @@ class _Typed(Transformer[Any, Any]):
 
     def integral_over(self, *parts: Any) -> _Code:
         sign, limits, before, bar, _, over, differential, along, under = parts
-        over = replace(over, size=1) if over else _Code("1", "atom", "", bar.at)
+        over = over or _Code("1", "atom", "", bar.at)
         inside = _from_template("fraction", bar, over, under)
         if before:
             inside = self.multiplied(before, None, inside)
         return _from_template("integral", sign, limits, inside, differential, along)
 
     def limits(self, *parts: Any) -> Limits:
-        upper = next(n for n, each in enumerate(parts) if getattr(each, "type", "") == "POWER")
-        low = next(
-            each for n, each in enumerate(parts) if isinstance(each, _Code) and n != upper + 1
-        )
+        low, high = (each for each in parts if isinstance(each, _Code))
+        if getattr(parts[0], "type", "") == "POWER":
+            low, high = high, low
         names = [typed(each) for each in parts if getattr(each, "type", "") == "SYMBOL"]
-        return Limits(low, parts[upper + 1], "".join(names))
+        return Limits(low, high, "".join(names))
 
     def cases(self, *parts: Any) -> _Code:
         rows = ", ".join(each for each in parts if isinstance(each, str))
@@ -246,42 +224,28 @@ class _Typed(Transformer[Any, Any]):
         name, digits = typed(command), exponent.text if exponent else ""
         if digits == "-1" and f"a{name}" in FUNCTIONS:
             name, power = f"a{name}", None
-        if power and not (digits.isdigit() and int(digits) > 1):
-            why = "this power of a function may mean its inverse function"
-            raise Unclear(power.at, why, "write \\arcsin, or a fraction")
-        if base and power:
-            raise Unclear(command.at, "the power of this logarithm is unclear", "use ()")
-        if base and command.text != r"\log":
-            raise Unclear(base.at, "_ is not allowed here", "remove it")
+        is_power = not power or (digits.isdigit() and int(digits) > 1)
+        if not is_power or (base and (power or command.text != r"\log")):
+            why = f"this index or power of {command.text} is unclear"
+            raise Unclear(command.at, why, "write \\arcsin, or a fraction, or use parentheses")
         circular = command.type == "CIRCULAR"
         if ending == "multiple" and not circular:
             raise Unclear(second, *_ARGUMENT)
         inverse, _, name = name.rpartition("/")
-        if len(texts) > FUNCTIONS[name].most:
-            raise Unclear(second, f"{command.text} has one argument", "write it alone")
         text, level = f"{name}({', '.join(texts)})", "power" if power else "atom"
         text += f"**{digits}" if power else ""
         if inverse or base:
             text, level = f"1/{text}" if inverse else f"{text}/log({base})", "product"
-        follow = FUNCTION if circular else frozenset[str]()
+        follow = _FUNCTIONS if circular else frozenset[str]()
         follow = _AFTER_BRACKETS if ending == "shown" else follow
         return _Code(text, level, command.type, command.at, follow=follow)
 
 
 def _from_template(rule: str, *parts: Any) -> _Code:
-    for each in parts:
-        if rule in _SINGLE and isinstance(each, _Code) and each.size > 1:
-            raise Unclear(each.at, *_SINGLE[rule])
     texts = [typed(each) if isinstance(each, Token) else each or "1" for each in parts]
     level, template = _TEMPLATES[rule]
     bound = _BOUND[rule].format(*texts) if rule in _BOUND else None
     return _Code(template.format(*texts), level, parts[0].type, parts[0].at, bound=bound)
-
-
-def _refused(rule: str, *parts: Any) -> NoReturn:
-    tokens = [each for each in parts if isinstance(each, Token) and each.type != "END"]
-    token = tokens[-1] if tokens else parts[0]
-    raise Unclear(token.at, *_UNCLEAR[rule])
 
 
 def typed(token: Token) -> str:

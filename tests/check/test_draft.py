@@ -125,7 +125,7 @@ def test_a_draft_asks_where_it_is_not_sure(tmp_path: Path) -> None:
     done = run(written(tmp_path, PHYSICS), "--draft", new, "--inline")
     assert done.exit_code == 0, done.output
     assert "p is a function elsewhere" in done.output
-    assert "d/dx before its operand is not supported" in done.output
+    assert "at `d}{dx} p(x) = 0`" in done.output
     data = tomllib.loads(new.read_text())
     claims = {claim["label"]: claim for claim in data["claims"]}
     assert claims["one"]["understood"] == "p_at_x = P/2*sign(x)"

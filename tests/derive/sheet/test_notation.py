@@ -8,6 +8,7 @@ from sympy import Expr, Integral, Symbol, parse_expr, pi, symbols
 
 from derive.command.view import formulas
 from derive.reading.latex import Latex
+from derive.reading.statements import statements
 from derive.sheet.notation import latex_name, latex_of, text_of
 from derive.symbols import QUANTITIES
 from tests.derive.bodies import VALUES, close, number, sheet
@@ -73,7 +74,9 @@ def from_latex(expr: Expr) -> Expr:
     text = text.replace(r"\left|{", r"\left|").replace(r"}\right|", r"\right|")
     local = {s.name: s for s in expr.atoms(Symbol)}
     spellings = {latex_name(name): name for name in local} | {"q_{0}": "q_0"}
-    understood = Latex("here", f"q_{{0}} = {text}", spellings).understood()
+    latex = f"q_{{0}} = {text}"
+    (statement,) = statements("here", latex)
+    understood = Latex("here", latex, spellings).read("equation", statement.tokens)
     return parse_expr(understood.removeprefix("q_0 = "), local_dict=local)
 
 
