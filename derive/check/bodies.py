@@ -23,9 +23,8 @@ from derive.command.errors import (
     UserError,
 )
 from derive.command.files import Unreadable, bytes_of
-from derive.command.new_geometry import new_geometry
+from derive.command.new_geometry import TEXT_LIMITS, Wanted, new_geometry
 from derive.command.processes import Report, in_processes
-from derive.command.wanted import TEXT_LIMITS, Wanted
 from derive.proof.numerical import NumericalRoutes
 from derive.proof.symbolic import symbolic_proof
 from derive.sheet.derivation import derive_sheet

@@ -144,8 +144,9 @@ def draft_claims(path: Path, inline: bool = False) -> Draft:
         reader = Latex("the draft", display.latex, made.spelled)
         for part, statement in enumerate(found, 1):
             number = f"{part}" if len(found) > 1 else ""
-            entries = _place(made.name, display, number) | _entries(reader, statement, alone)
+            entries = _place(made.name, display, number)
             entries |= {"part": part} if statement.tokens else {}
+            entries |= _entries(reader, statement, alone)
             labels[entries["label"]] += 1
             if (count := labels[entries["label"]]) > 1:
                 entries["label"] += f" [{count}]"
@@ -244,7 +245,8 @@ def _conditions(statement: Statement, reader: Latex, names: Names) -> tuple[dict
         limits.append(f"{reader.spellings.get(small, small)} -> 0")
     if len(set(limits)) > 1:
         return found, f"it holds in several limits, {', '.join(limits)}: put one in `as`"
-    entries = {"as": "".join(limits[:1]), "order": statement.order}
+    order = int(statement.order) if statement.order.is_integer() else statement.order
+    entries = {"as": "".join(limits[:1]), "order": order}
     return found | {key: entry for key, entry in entries.items() if entry}, ""
 
 

@@ -7,8 +7,7 @@ limit         a time limit for a search
 processes     work in separate processes, with limits on time and memory
 files         files that are read up to a limit and written whole
 folder        a directory that is replaced as a whole, with the list of its files
-wanted        a new geometry as a user describes it, made in a process with limits
-new_geometry  its file, from g(x) given as text
+new_geometry  a new geometry from g(x) given as text, made in a process with limits
 terminal      text, tables and progress bars
 view          tables and formula sheets for a terminal
 showing       what `derive show` prints and writes

@@ -171,18 +171,18 @@ def new(
     are not given are derived from the requirement that g(x) be a length.  An existing file is never
     changed.
     """
-    from derive.command.files import place_of_geometry, write_geometry
-    from derive.command.wanted import Wanted, in_limited_process
+    from derive.command.files import place_of_geometry, put_page
+    from derive.command.new_geometry import Wanted, in_limited_process
 
     wanted = Wanted(name, profile.strip(), title, units, meanings)
     path = place_of_geometry(name, out)
     with status(f"{name}: reading g(x)"):
-        made = in_limited_process(wanted)
-    write_geometry(path, made.text)
+        geometry, text = in_limited_process(wanted)
+    put_page(text, path, mark=None)
     shown = click.format_filename(path_of(path))
-    click.echo(f"Wrote {shown}: g(x) = {made.g}")
-    for parameter, unit, meaning in made.parameters:
-        click.echo(f"  {parameter} [{unit}]  {meaning}")
+    click.echo(f"Wrote {shown}: g(x) = {geometry.g}")
+    for parameter in geometry.parameters:
+        click.echo(f"  {parameter.name} [{parameter.unit}]  {parameter.meaning}")
     derive, file = command(), shlex.quote(shown)
     click.echo(f"See its formulas:    {derive} show {file}")
     click.echo(f"Generate a module:   {derive} generate {file} --out DIRECTORY")

@@ -20,6 +20,9 @@ from derive.command.errors import BadTarget, UserError
 MARK = '<meta name="generator" content="derive '
 """A tag in every page made by a command of this package; only such pages are replaced."""
 
+_FULL = (errno.ENOSPC, errno.EFBIG, errno.EDQUOT)
+"""Errors of a full disk, of a limit on the size of files, and of a quota."""
+
 
 class Unreadable(Exception):
     """The reason why a file cannot be read, in a few words."""
@@ -100,7 +103,9 @@ def refused_as(
     try:
         yield
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        if isinstance(error, OSError) and error.errno in _FULL:
+            reason = f"{reason}: free some space"
         raise refusal(str(path), f"{what} ({reason})") from error
 
 
@@ -155,45 +160,38 @@ def place_of_geometry(name: str, out: Path | None) -> Path:
     folder = out if out is not None else Path()
     with refused(folder):
         path = folder if folder.suffix == ".py" and not folder.is_dir() else folder / f"{name}.py"
-        if os.path.lexists(path):
-            raise BadTarget(str(path), "already exists")
         if not path.parent.is_dir():
             raise BadTarget(str(path.parent), "is not a directory")
-        demand_writable(path)
+    demand_page(path, mark=None)
     return path
 
 
-def write_geometry(path: Path, text: str) -> None:
-    """Write the file of a new geometry; raises BadTarget."""
-    with refused(path):
-        write_new(text.encode(), path)
-
-
-def put_page(text: str, path: Path, option: str = "--out", mark: str = MARK) -> None:
+def put_page(text: str, path: Path, option: str = "--out", mark: str | None = MARK) -> None:
     """Write one file; only a file made by this package, which has the mark, is replaced.
 
     option: the option that gave the path
+    mark: None if no file is replaced
 
     Raises BadTarget if the path must not be replaced or cannot be written.
     """
     demand_page(path, option, mark)
     with refused(path, option):
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(text.encode(), path)
+        (write_new if mark is None else write_whole)(text.encode(), path)
 
 
-def demand_page(path: Path, option: str = "--out", mark: str = MARK) -> None:
+def demand_page(path: Path, option: str = "--out", mark: str | None = MARK) -> None:
     """Raise BadTarget if `put_page` would not write this path; call this before a long task."""
     with refused(path, option):
         demand_writable(path)
     if path.is_dir():
         raise BadTarget(str(path), "is a directory", option)
-    if (path.exists() or path.is_symlink()) and not _has_mark(path, mark):
+    if os.path.lexists(path) and not _has_mark(path, mark):
         raise BadTarget(str(path), "exists and was not made by `derive`", option)
 
 
-def _has_mark(path: Path, mark: str) -> bool:
-    if not path.is_file() or (mark == MARK and path.suffix != ".html"):
+def _has_mark(path: Path, mark: str | None) -> bool:
+    if mark is None or not path.is_file() or (mark == MARK and path.suffix != ".html"):
         return False
     with path.open("rb") as file:
         return mark.encode() in file.read(2000)

@@ -1,9 +1,12 @@
-"""A new geometry from g(x) given as text; all mistakes are reported before its file is written."""
+"""A new geometry from g(x) given as text; all mistakes are reported before its file is written.
+
+SymPy can take very long for a short text, so that this is done in a process with limits.
+"""
 
 import ast
-import re
 import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 from sympy import Abs, Rational
 from sympy.printing.str import StrPrinter
@@ -12,7 +15,8 @@ from derive.body.geometry import Geometry, parameter, without_x
 from derive.body.library import is_in_library
 from derive.codegen.module import formatted
 from derive.command.errors import BadName, BadProfile, BadUnit, UserError
-from derive.command.wanted import Wanted, bad_option
+from derive.command.options import bad_option
+from derive.command.processes import Bounds, Report, in_processes
 from derive.reading.profile import parameters, read, tree_of, value
 from derive.reading.tree import Tree
 from derive.reading.units import units_of_profile
@@ -32,6 +36,38 @@ _MODULES = sys.stdlib_module_names | {
     *("derive", "generated", "numpy", "numba", "sympy", "mpmath", "click", "rich", "ruff"),
 }
 """Modules that a file with the same name would hide."""
+
+
+TEXT_LIMITS = Bounds(seconds=60, gigabytes=2)
+"""The limits for the text of one g(x); each body of the library takes about a second."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A user's description of a new geometry.
+
+    units, meanings: those of the parameters, by name; both are optional
+    """
+
+    name: str
+    profile: str
+    title: str = ""
+    units: Mapping[str, str] = field(default_factory=dict)
+    meanings: Mapping[str, str] = field(default_factory=dict)
+
+
+def in_limited_process(wanted: Wanted, bounds: Bounds = TEXT_LIMITS) -> tuple[Geometry, str]:
+    """The same as `new_geometry`.
+
+    Raises RanAway if the process exceeds its limits, and the exceptions of `new_geometry`.
+    """
+    (made,) = in_processes(_reported, [wanted], lambda *_: None, 1, bounds)
+    return made
+
+
+def _reported(wanted: Wanted, report: Report) -> tuple[Geometry, str]:
+    report(f"g of {wanted.name!r}", "reading g(x)")
+    return new_geometry(wanted)
 
 
 def new_geometry(wanted: Wanted) -> tuple[Geometry, str]:
@@ -162,10 +198,5 @@ def _title(wanted: Wanted) -> str:
 
 def _docstring(title: str) -> str:
     """A title as a docstring of one line, whatever characters it contains."""
-    plain = "".join(map(_escaped, title))
-    return '"""' + re.sub('"(?="|$)', r"\"", plain) + '"""'
-
-
-def _escaped(character: str) -> str:
-    shown = character.isprintable() and character != "\\"
-    return character if shown else repr(character)[1:-1]
+    is_plain = title.isprintable() and not {*title} & {"\\", '"'}
+    return f'"""{title}"""' if is_plain else repr(title)

@@ -1,14 +1,15 @@
-"""Types of options and arguments: paths, times and formulas."""
+"""Types of options and arguments: paths, times, texts by name and formulas."""
 
 import unicodedata
+from collections.abc import Iterable
 from functools import partial
 from math import inf
 from pathlib import Path
 
 import click
 
+from derive.command.errors import BadOption
 from derive.command.limit import DEFAULT
-from derive.command.wanted import parse_name_values
 
 
 class _Path(click.ParamType):
@@ -52,6 +53,30 @@ time_limit = click.option(
     metavar="SECONDS",
     help="Time limit for the search for closed forms of one body's integrals.",
 )
+
+
+def parse_name_values(option: str, given: Iterable[str]) -> dict[str, str]:
+    """The text that an option NAME=TEXT gives for each parameter.
+
+    Raises BadOption.
+
+    >>> parse_name_values("--unit", ["R=m", "phi = rad"])
+    {'R': 'm', 'phi': 'rad'}
+    """
+    texts: dict[str, str] = {}
+    for each in given:
+        name, equals, text = (part.strip() for part in each.partition("="))
+        if not (name and equals and text):
+            raise bad_option(option, each, "is not of the form NAME=TEXT")
+        if name in texts:
+            raise bad_option(option, each, f"{name} is given a second time")
+        texts[name] = text
+    return texts
+
+
+def bad_option(option: str, given: str, why: str) -> BadOption:
+    """The error for one option, with an example of how to write it."""
+    return BadOption(option, given, why, "m" if option == "--unit" else "radius")
 
 
 class WithFormula(click.Command):

@@ -17,7 +17,6 @@ from sympy import Add, Expr, Monomial, Poly
 from derive import derive_sheet, load_geometry, pipeline
 from derive.body.library import is_in_library
 from derive.command import view
-from derive.command.errors import RanAway
 from derive.command.processes import Report, in_processes
 from derive.command.terminal import folded, status
 from derive.proof import prove
@@ -30,8 +29,6 @@ if TYPE_CHECKING:
     from derive.handbook.page import Entry
 
 Shown = TypeVar("Shown")
-
-_LOWER = "give a lower order with --slip, or a simpler profile"
 
 _SENSES = (
     "kappa_left, kappa_right: directions of slip in the half-cycle that raises the shear load: 1 "
@@ -54,12 +51,7 @@ def in_limited_process(
         def report(what: str, stage: str) -> None:
             update(f"{what}: {stage}")
 
-        try:
-            (shown,) = in_processes(function, [(name, *more)], report, 1, bounds)
-        except RanAway as error:
-            if function is slip_of:
-                error.remedy = _LOWER
-            raise
+        (shown,) = in_processes(function, [(name, *more)], report, 1, bounds)
     return shown
 
 

@@ -2,11 +2,12 @@
 
 import csv
 import io
-from collections.abc import Iterable, Iterator, Sequence
-from html import escape
-from math import floor, isfinite, log10
+from collections.abc import Iterator, Sequence
+from math import floor, isfinite, log10, nan
 
+import jinja2
 import numpy as np
+from markupsafe import Markup
 
 from derive.command.terminal import folded
 from derive.edge.find import SIDES, Findings, FittedEdge
@@ -27,34 +28,6 @@ ZONES = (
 
 SERIES = "series is the change that one more term would make"
 REACH = "d/reach is the slip zone divided by the distance at which the next term equals the first"
-
-PAGE = """<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="generator" content="derive edge --html">
-<title>{title}</title>
-<style>
-body {{ font: 16px/1.5 sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }}
-.wide {{ overflow-x: auto; }}
-table {{ border-collapse: collapse; white-space: nowrap; }}
-th, td {{ text-align: right; padding: 0.2rem 0.6rem; border-bottom: 1px solid #ccc; }}
-h1 {{ overflow-wrap: anywhere; }}
-svg {{ width: 100%; min-width: 30rem; max-width: 50rem; font: 12px sans-serif; }}
-.grid {{ stroke: #ddd; }}
-.curve {{ fill: none; stroke: #06c; stroke-width: 2; }}
-.curve-0 {{ stroke: #888; stroke-dasharray: 5 4; }}
-.curve-2 {{ fill: #000; stroke: none; }}
-.curve-3 {{ stroke: #c30; }}
-</style>
-</head>
-<body>
-<h1>{title}</h1>
-{body}
-</body>
-</html>
-"""
 
 
 def _pm(value: float, error: float, scale: float) -> str:
@@ -156,38 +129,21 @@ def _inert(label: str) -> str:
 
 def as_page(findings: Findings, steps: Sequence[Step], title: str) -> str:
     """Return an HTML page with a picture of each edge at the end of the half-cycle."""
-    body = ["<h2>Edges</h2>", _table(HEAD, edge_rows(findings))]
-    if findings.zones:
-        body += [
-            "<h2>Slip zones at the end of the half-cycle</h2>",
-            _table(ZONES, zone_rows(findings)),
-        ]
-    legend = ["± is one standard deviation", *([SERIES, REACH] if findings.zones else [])]
-    body.append(f"<p>{prose('; '.join(legend))}.</p>")
     last = [e for e in findings.edges if e.step == steps[-1].name and np.isfinite(e.pressure.edge)]
-    zones = {zone.side: zone.d for zone in findings.zones}
-    for e in last:
-        body += [
-            f"<h2>Pressure next to the {e.side} edge</h2>",
-            _picture(e, steps[-1], zones.get(e.side, float("nan"))),
-            f"<p>{prose(e.pressure.why)}.</p>",
-        ]
-    if findings.notes:
-        body += ["<h2>Notes</h2>", "<ul>"]
-        body += [f"<li>{escape(note)}</li>" for note in findings.notes] + ["</ul>"]
-    return PAGE.format(title=escape(title), body="\n".join(body))
-
-
-def _table(head: Iterable[str], rows: Iterable[Sequence[str]]) -> str:
-    def line(cells: Iterable[str], tag: str) -> str:
-        return "<tr>" + "".join(f"<{tag}>{cell}</{tag}>" for cell in cells) + "</tr>"
-
-    shown = ([escape(cell).replace("+-", "±") for cell in row] for row in rows)
-    lines = f"{line(map(prose, head), 'th')}{''.join(line(row, 'td') for row in shown)}"
-    return f'<div class="wide"><table>{lines}</table></div>'
-
-
-LEGEND = "dots: nodes; dashed line: K_N sqrt(s); blue line: K_N sqrt(s) + L_N s**(3/2)"
+    ends = {zone.side: zone.d for zone in findings.zones}
+    templates = jinja2.Environment(loader=jinja2.PackageLoader("derive.edge"), autoescape=True)
+    templates.trim_blocks = templates.lstrip_blocks = True
+    templates.filters["prose"] = lambda text: Markup(prose(text))
+    return templates.get_template("report.html").render(
+        title=title,
+        edge_head=HEAD,
+        edges=edge_rows(findings),
+        zone_head=ZONES,
+        zones=zone_rows(findings),
+        legend=["± is one standard deviation", *([SERIES, REACH] if findings.zones else [])],
+        pictures=[(e, Markup(_picture(e, steps[-1], ends.get(e.side, nan)))) for e in last],
+        notes=findings.notes,
+    )
 
 
 def _picture(e: FittedEdge, step: Step, d: float) -> str:
@@ -208,5 +164,4 @@ def _picture(e: FittedEdge, step: Step, d: float) -> str:
         curves.append(("end of the slip zone", np.full(2, d), heights))
     lines = [Line(name, 1e3 * x, 1e-6 * y, name == "nodes") for name, x, y in curves]
     labels = "pressure at an edge", "distance from the edge [mm]", "pressure [MPa]"
-    legend = LEGEND + ("; red line: end of the slip zone" if len(lines) > 3 else "")
-    return f'<div class="wide">{svg(*labels, lines, is_log=True)}</div>\n<p>{prose(legend)}</p>'
+    return svg(*labels, lines, is_log=True)

@@ -1,6 +1,6 @@
 """One page of the handbook for one body, and the index of several."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -11,7 +11,6 @@ from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer
 
 from derive.handbook.curves import pictures, profile
-from derive.proof.verdict import Verdict
 from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.mathml import mathml
@@ -20,20 +19,6 @@ from derive.sheet.prose import prose, unit
 
 SHOWN = 40
 """Number of lines above which the code of a module is collapsed."""
-
-
-class Row(NamedTuple):
-    """One formula in the table of a page."""
-
-    name: str
-    meaning: str
-    unit: str
-    formula: Markup
-    latex: str
-    holds_if: tuple[Markup, ...]
-    source: str
-    verdict: Verdict
-    proof: str
 
 
 class Entry(NamedTuple):
@@ -55,23 +40,13 @@ def page(sheet: FormulaSheet, body: BuiltBody, index: bool = False) -> str:
 
     Raises NotProven for a formula without a proof.
     """
-    geometry = sheet.geometry
-    symbols = [q for q in sheet.quantities if q not in geometry.parameters]
-    defined = [
-        (mathml(f"{latex_of(s)} = {latex_of(expr)}"), str(s))
-        for s, expr in sheet.definitions.items()
-    ]
     return (
         _templates()
         .get_template("page.html")
         .render(
             entry=entry(sheet, body),
-            parameters=[(mathml(latex_of(p.symbol), "inline"), p) for p in geometry.parameters],
-            symbols=[(mathml(latex_of(q.symbol), "inline"), q) for q in symbols],
-            rows=list(_rows(sheet)),
-            defined=defined,
+            sheet=sheet.demand_proven(),
             figures=figures(sheet, body),
-            remark=sheet.remark,
             code=_code(body.text),
             lines=body.text.count("\n"),
             style=_style(),
@@ -105,24 +80,6 @@ def entry(sheet: FormulaSheet, body: BuiltBody) -> Entry:
     )
 
 
-def _rows(sheet: FormulaSheet) -> Iterator[Row]:
-    for name, formula in sheet.demand_proven().items():
-        assert formula.proof is not None
-        latex = f"{formula.left} = {latex_of(sheet.shown(name))}"
-        conditions = tuple(mathml(latex_of(c), "inline") for c in formula.conditions)
-        yield Row(
-            name,
-            formula.meaning,
-            formula.unit,
-            mathml(latex),
-            latex,
-            conditions,
-            formula.source,
-            formula.proof.verdict,
-            str(formula.proof).partition(": ")[2],
-        )
-
-
 def _code(text: str) -> Markup:
     """Python code as HTML, with the classes that the style colours."""
     return Markup(highlight(text, PythonLexer(), HtmlFormatter(nowrap=True)))  # escapes the text
@@ -147,6 +104,8 @@ def _templates() -> jinja2.Environment:
         lstrip_blocks=True,
     )
     templates.filters |= {
+        "latex": latex_of,
+        "mathml": mathml,
         "prose": lambda text: Markup(prose(text)),
         "unit": lambda text: Markup(unit(text)),
     }

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 from math import ceil
-from types import ModuleType
-from typing import Any, NamedTuple
+from types import ModuleType, SimpleNamespace
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -73,7 +73,7 @@ def stick_slip(
     if a.ndim != 1:
         raise ValueError(f"cycle has the shape {a.shape}; give one cycle")
     at = times(time, np.linspace(0, 1, a.size))
-    axes = _map(at, _Zones(*(np.asarray(v) for v in cycle)), axes, length, legend)
+    axes = _map(at, cycle, axes, length, legend)
     axes.set_xlabel("$t$  [cycles]" if time is None else "$t$")
     return axes
 
@@ -129,8 +129,9 @@ def sweep(
             "direction of slip at each edge; give the dsigma that was given to stick_zone"
         )
     left, right = senses(zone, dsigma)
-    given = contact.a, contact.c, zone.m, zone.n, left, right, zone.regime
-    zones = _Zones(*(np.broadcast_to(value, at.shape) for value in given))
+    given = {"a": contact.a, "c": contact.c, "m": zone.m, "n": zone.n, "regime": zone.regime}
+    given |= {"left": left, "right": right}
+    zones = SimpleNamespace(**{k: np.broadcast_to(value, at.shape) for k, value in given.items()})
     axes = _map(at, zones, axes, length, legend)
     axes.set_xlabel(label)
     return axes
@@ -209,18 +210,6 @@ def kinds_of_slip(history: Any) -> Array:
     return np.where(np.abs(step) > STILL * most, np.sign(step), 0.0 * step)
 
 
-class _Zones(NamedTuple):
-    """Contact, stick zone, directions of slip and code of Regime for every value along an axis."""
-
-    a: Array
-    c: Array
-    m: Array
-    n: Array
-    left: Array
-    right: Array
-    regime: Array
-
-
 AREAS: dict[str, Any] = {
     "stick": {"color": STICK, "linewidth": 0},
     "forward slip": {"color": FORWARD, "linewidth": 0},
@@ -230,8 +219,11 @@ AREAS: dict[str, Any] = {
 }
 
 
-def _map(at: Array, zones: _Zones, axes: Axes | None, length: Measure | None, legend: bool) -> Axes:
-    """Draw the areas of stick and slip, and the lines between them."""
+def _map(at: Array, zones: Any, axes: Axes | None, length: Measure | None, legend: bool) -> Axes:
+    """Draw the areas of stick and slip, and the lines between them.
+
+    zones: contact, stick zone, directions of slip and code of Regime, named as in a March
+    """
     length = length or unit(np.append(zones.a, zones.c), "m")
     low, high = -length(zones.a), length(zones.c)
     start, end = -length(zones.m), length(zones.n)
@@ -261,7 +253,7 @@ def _finish(
 
 
 def _areas(
-    zones: _Zones, low: Array, high: Array, start: Array, end: Array
+    zones: Any, low: Array, high: Array, start: Array, end: Array
 ) -> Iterator[tuple[str, tuple[Array, Array], Array]]:
     """The areas to fill: name, the two lines that bound it, and the values where it exists."""
     touching = np.isfinite(low) & np.isfinite(high)

@@ -40,7 +40,6 @@ for _ in range(3):  # arguments may be functions
     _CALL = rf"(?:\( {_ARGUMENT}(?:[,;] {_ARGUMENT})*\) )?"
 _SYMBOL = _WHOLE + _CALL
 _TIMES = r"(?:\^ (?:\d |\{ \d \} ))?"
-_OVER = rf"\{{ (?:\\dd |\\partial )(?:\^ (?:\d |\{{ \d \}} ))?({_SYMBOL})\}} "
 _DERIVATIVE = (
     rf"\\frac \{{ (?:\\dd |\\partial )({_TIMES})({_SYMBOL})\}} "
     rf"\{{ (?:\\dd |\\partial )({_SYMBOL})({_TIMES})\}} "
@@ -55,11 +54,7 @@ _PIECES = re.compile(
 
 def symbols(tokens: Sequence[Token]) -> Iterator[tuple[int, int, str]]:
     """Yield the start, the end and a name for each symbol."""
-    text, starts = "", dict[int, int]()
-    for n, token in enumerate(tokens):
-        starts[len(text)] = n
-        text += token.text.replace(" ", "~") + " "
-    starts[len(text)] = len(tokens)
+    text = "".join(token.text.replace(" ", "~") + " " for token in tokens)
     integrates = any(each.type == "INT" for each in tokens)
     at = 0
     while match := _FOUND.search(text, at):
@@ -67,7 +62,7 @@ def symbols(tokens: Sequence[Token]) -> Iterator[tuple[int, int, str]]:
         if integrates and match[0].startswith(r"\dd "):
             at = start + len(r"\dd ")
             continue
-        yield starts[start], starts[at], _name(match)
+        yield text.count(" ", 0, start), text.count(" ", 0, at), _name(match)
 
 
 def _name(match: re.Match[str]) -> str:
@@ -82,9 +77,9 @@ def _symbol_name(text: str) -> str:
     pieces = _PIECES.fullmatch(text)
     assert pieces is not None
     before, letter, accent, accented, inner, hung, call = pieces.groups()
-    name = letter_name((letter or accented or "").strip()) if not inner else _symbol_name(inner)
-    if accent:
-        name = f"{name}_{_ACCENTS[accent]}"
+    own = (letter or accented or "").strip().removeprefix("\\")
+    own = "lam" if own == "lambda" else own  # formulas may not hold lambda
+    name = (_symbol_name(inner) if inner else own) + (f"_{_ACCENTS[accent]}" if accent else "")
     for each in re.findall(rf"' |{_INDEX}|{_RAISED}", hung):
         words = re.sub(r"[{}()\\]|\s", "", re.sub(r"^[_^] ", "", each))
         if each[0] == "^" and words not in _SIGNS:
@@ -98,11 +93,6 @@ def _symbol_name(text: str) -> str:
             each.strip() if each[0].isdigit() else _symbol_name(each) for each in arguments
         )
     return name
-
-
-def letter_name(letter: str) -> str:
-    r"""Return the name of a letter; \lambda is lam, because formulas may not hold lambda."""
-    return "lam" if letter == r"\lambda" else letter.removeprefix("\\")
 
 
 def spellings(tokens: Sequence[Token]) -> dict[str, str]:

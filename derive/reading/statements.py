@@ -47,7 +47,7 @@ class Statement:
     tokens: list[Token]
     conditions: list[list[Token]] = field(default_factory=list)
     why: str = ""
-    order: float = 0
+    order: float = 0.0
     small: str = ""
 
     @property
@@ -229,13 +229,13 @@ def _chain(entry: Statement) -> Iterator[Statement]:
         if n and not (relation.type == "EQUAL" == between[n - 1].type):
             first = n
         left, (right, order, small) = sides[first], _without_remainder(sides[n + 1])
-        if first and _without_remainder(left)[0] != left:
-            left = sides[0]
+        is_near = {each.type for each in between[: n + 1]} <= {"EQUAL", "ROUGH"}
+        if first and is_near and _without_remainder(left)[0] != left:
+            left, relation = sides[0], relation._replace(type="ROUGH", text=r"\sim")
+        elif relation.type == "EQUAL" and right != sides[n + 1] and not order:
             relation = relation._replace(type="ROUGH", text=r"\sim")
-        if relation.type == "EQUAL" and right != sides[n + 1] and not order:
-            relation = relation._replace(type="ROUGH", text=r"\sim")
-        elif relation.type == "ORDER" and order:
-            right, order, small = sides[n + 1], 0, ""
+        elif relation.type == "ORDER":
+            right, order, small = sides[n + 1], 0.0, ""
         if not any(each.type in ("TEXT", "LETTER") for each in right):
             right = [*right, *words]  # numbers with a unit are an example
         why = ""
@@ -276,8 +276,8 @@ def _without_remainder(side: list[Token]) -> tuple[list[Token], float, str]:
         (n for n, each in enumerate(kept) if each.text == r"\mathcal{O}" and not each.depth), 0
     )
     found = _REMAINDER.fullmatch(" ".join(each.text for each in kept[at + 1 :])) if at else None
-    if not found:
-        return kept, 0, ""
+    if not found or kept[at - 1].type != "SIGN":
+        return kept, 0.0, ""
     order = float(found[2] or found[3] or 1) / float(found[4] or 1)
     return kept[: at - 1], order, found[1].replace(" ", "")
 
@@ -308,9 +308,7 @@ def _signed(tokens: list[Token], upper: bool) -> list[Token]:
         if each.text == "+" and follows != "}" and (not made or made[-1].type in _BEFORE):
             continue
         made.append(each)
-        if [t.type for t in made[-5:]] == ["{", "NUMBER", "COMMA", "NUMBER", "}"] and made[
-            -6:-5
-        ] == [t for t in made[-6:-5] if t.text == "_"]:
+        if " ".join(t.type for t in made[-6:]) == "_ { NUMBER COMMA NUMBER }":
             made[-4:-1] = [made[-4] if upper else made[-2]]
     return made
 

@@ -113,7 +113,9 @@ a = b, c, d = e :: c stands without a relation
 y = 1{,}500 a :: cannot be read from here on
 P = c [1 + O(a/R)] :: only understood as the last term
 P = c + \mathcal{O}(a/R) :: only understood as the last term
+P = a c \mathcal{O}(a) :: only understood as the last term
 P < c + O(a) :: only understood as the last term
+P < c + \ldots :: only understood as the last term
 P = c + o(a) :: only understood as the last term
 P \propto a^2 :: \propto does not form an equation
 a \ll R :: \ll does not form an equation
@@ -189,6 +191,11 @@ def test_what_is_read_but_not_judged(latex: str, why: str, tmp_path: Path) -> No
     (one,) = claims(tmp_path, rf"\[ {latex} \]")
     assert "understood" in one
     assert why in str(one["unchecked"])
+
+
+def test_no_equation_follows_from_an_inequality_with_a_remainder(tmp_path: Path) -> None:
+    found = claims(tmp_path, r"\[ a < b + O(c) = P \]")
+    assert not any("understood" in each for each in found)
 
 
 def test_a_long_equation_is_refused_at_once(tmp_path: Path) -> None:

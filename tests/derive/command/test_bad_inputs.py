@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import derive.command.wanted
+import derive.command.new_geometry
 import derive.pipeline
 from derive.command.processes import Bounds, in_processes
 from generated import circular_arc, hertz, power, wedge
@@ -165,7 +165,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(derive.pipeline, "USER_FILE_LIMITS", None)
     monkeypatch.setattr(
-        derive.command.wanted,
+        derive.command.new_geometry,
         "in_processes",
         lambda task, items, *_: [task(item, lambda *_: None) for item in items],
     )
@@ -234,7 +234,7 @@ def test_a_text_is_shown_with_a_caret_under_its_mistake(
     """Also when the refusal comes back from another process."""
     told = refused_here(here, "new", "blunt", text)
     assert all(map(str.startswith, told.splitlines()[1:], lines)), told
-    monkeypatch.setattr(derive.command.wanted, "in_processes", in_processes)
+    monkeypatch.setattr(derive.command.new_geometry, "in_processes", in_processes)
     assert refused_here(here, "new", "blunt", text) == told
 
 

@@ -15,9 +15,8 @@ from derive.body.library import load_geometry
 from derive.command.cli import main
 from derive.command.errors import BadProfile, BadTarget, OpenUnits
 from derive.command.files import place_of_geometry as place
-from derive.command.files import write_geometry as write_new
-from derive.command.new_geometry import NEUTRAL, new_geometry
-from derive.command.wanted import Wanted
+from derive.command.files import put_page
+from derive.command.new_geometry import NEUTRAL, Wanted, new_geometry
 from derive.reading.profile import read
 from derive.reading.units import units_of_profile
 from tests.derive.bodies import BODIES, geometry
@@ -46,7 +45,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result
 def run_here(run: Callable[..., Result], monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
     """The same without the seconds that another process takes."""
     monkeypatch.setattr(
-        "derive.command.wanted.in_processes",
+        "derive.command.new_geometry.in_processes",
         lambda task, items, *_: [task(item, lambda *_: None) for item in items],
     )
     return run
@@ -123,7 +122,7 @@ TEXTS = {
 def test_a_text_makes_the_body_that_was_written_by_hand(name: str, tmp_path: Path) -> None:
     """And its file is loaded as what was read."""
     made, text = new_geometry(Wanted(f"my_{name}", TEXTS[name]))
-    write_new(tmp_path / "body.py", text)
+    put_page(text, tmp_path / "body.py", mark=None)
     loaded = load_geometry(tmp_path / "body.py")
     assert (loaded.name, loaded.g, loaded.parameters) == (made.name, made.g, made.parameters)
     assert {q.meaning for q in loaded.parameters} == {NEUTRAL}
@@ -162,7 +161,7 @@ TITLES = [
 def test_titles_and_meanings_are_kept_and_never_run(words: str, tmp_path: Path) -> None:
     wanted = Wanted("body", "x**2/(2*R)", title=words, meanings={"R": words})
     path = tmp_path / "body.py"
-    write_new(path, new_geometry(wanted)[1])
+    put_page(new_geometry(wanted)[1], path, mark=None)
     loaded = load_geometry(path)
     kept = words.encode("utf-8", "replace").decode()  # a lone surrogate cannot be written later
     assert loaded.description == kept
@@ -206,7 +205,7 @@ def test_a_place_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
         assert "nothing was written" in caught.value.message
     for out in ("text.txt/mine.py", "q" * 300 + ".py", "a\0.py"):
         with pytest.raises(BadTarget):
-            write_new(place("body", Path(out)), "new")
+            put_page("new", place("body", Path(out)), mark=None)
     assert (tmp_path / "body.py").read_text() == (tmp_path / "text.txt").read_text() == "kept"
 
 
@@ -221,7 +220,7 @@ def test_a_failing_write_leaves_nothing_behind(
 ) -> None:
     monkeypatch.setattr("derive.command.files.os.fsync", raising(failure))
     with pytest.raises(error):
-        write_new(tmp_path / "body.py", "new")
+        put_page("new", tmp_path / "body.py", mark=None)
     assert held(tmp_path) == []
 
 

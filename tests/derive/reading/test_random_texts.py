@@ -6,7 +6,7 @@ import time
 import pytest
 
 from derive.command.errors import UserError
-from derive.command.wanted import TEXT_LIMITS, Wanted, in_limited_process
+from derive.command.new_geometry import TEXT_LIMITS, Wanted, in_limited_process
 
 ATOMS = ("x", "x", "R", "b", "phi", "2", "0.5", "1e300", "10**9", "pi", "1/0", "oo", "()", "")
 CALLS = ("exp", "cosh", "Abs", "sqrt", "log", "Max", "tan", "atan2", "gamma", "eval", "__import__")
