@@ -18,7 +18,7 @@ from derive.check.proposals import proposal
 from derive.command.errors import BadClaimsFile, BadFormula
 from derive.command.files import demand_writable, refused_as, write_new
 from derive.command.limit import LimitReached, within
-from derive.reading.displays import Display, displays
+from derive.reading.displays import LABEL, Display, displays
 from derive.reading.formula import (
     Names,
     UnknownName,
@@ -139,18 +139,17 @@ def draft_claims(path: Path, inline: bool = False) -> Draft:
         alone |= standing_alone(statement.tokens)
         for tokens in (statement.tokens, *statement.conditions):
             made.spelled |= spellings(tokens)
-    labels = Counter[str]()
+    used = Counter[str]()
     for display, found in known:
         reader = Latex("the draft", display.latex, made.spelled)
-        for part, statement in enumerate(found, 1):
-            number = f"{part}" if len(found) > 1 else ""
-            entries = _place(made.name, display, number)
-            entries |= {"part": part} if statement.tokens else {}
-            entries |= _entries(reader, statement, alone)
-            labels[entries["label"]] += 1
-            if (count := labels[entries["label"]]) > 1:
-                entries["label"] += f" [{count}]"
-            made.claims.append(entries)
+        labels = [_label(display, each) for each in found]
+        for part, (label, statement) in enumerate(zip(labels, found, strict=True), 1):
+            label += f"/{labels[:part].count(label)}" if labels.count(label) > 1 else ""
+            used[label] += 1
+            label += f" [{used[label]}]" if used[label] > 1 else ""
+            place = f"statement {part}, {path.name}" if len(found) > 1 else path.name
+            entries = _printed(display, label, place, part if statement.tokens else 0)
+            made.claims.append(entries | _entries(reader, statement, alone))
     made.drop_bound()
     return made
 
@@ -163,18 +162,24 @@ def _statements(name: str, display: Display) -> list[Statement]:
         return [Statement([], why=_told(error))]
 
 
-def _place(name: str, display: Display, number: str) -> dict[str, Any]:
-    """Return where a statement stands in the paper, and what is printed there."""
-    equation_number = f"({display.number})" if display.number else ""
-    label = ", ".join(display.labels) or equation_number or f"line {display.line}"
-    shown = (f"eq. {equation_number}" * bool(equation_number), f"statement {number}" * bool(number))
+def _label(display: Display, statement: Statement) -> str:
+    """Return the label of a statement's row, or of its display."""
+    end, number = statement.tokens[-1].at if statement.tokens else 0, display.number
+    row = display.latex[:end].rpartition(r"\\")[2] + display.latex[end:].partition(r"\\")[0]
+    own = f"({number})" if number else f"line {display.line}"
+    return _line(", ".join(LABEL.findall(row) or display.labels) or own)
+
+
+def _printed(display: Display, label: str, place: str, part: int) -> dict[str, Any]:
+    """Return what is printed, and where."""
     found = {
-        "label": _line(f"{label}/{number}" if number else label),
-        "place": ", ".join(filter(None, (*shown, f"{name}:{display.line}"))),
+        "label": label,
+        "place": f"eq. ({display.number}), " * bool(display.number) + f"{place}:{display.line}",
         "says": _line(", ".join(remarks(display.latex))),
         "latex": display.latex,
+        "part": part,
     }
-    return {key: text for key, text in found.items() if text}
+    return {key: entry for key, entry in found.items() if entry}
 
 
 def _entries(reader: Latex, statement: Statement, alone: set[str]) -> dict[str, Any]:

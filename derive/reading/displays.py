@@ -156,22 +156,28 @@ def _closed(text: str, at: int) -> int:
 def _expanded(latex: str, macros: Mapping[str, tuple[int, str]]) -> str:
     """Expand macros, as long as the display does not become too long."""
     for _ in range(_EXPANSIONS):
-        used = (each for each in re.finditer(r"(\\[A-Za-z]+)\s*", latex) if each[1] in macros)
+        used = (each for each in re.finditer(r"\\[A-Za-z]+", latex) if each[0] in macros)
         if (found := next(used, None)) is None:
             break
-        (count, body), end, given = macros[found[1]], found.end(), list[str]()
-        made = f"{latex[: found.start()]} "
+        (count, body), end, given = macros[found[0]], found.end(), list[str]()
         for _argument in range(count):
-            start, end = end, _closed(latex, end)
+            start = len(latex) - len(latex[end:].lstrip())
+            end = _closed(latex, start)
             given.append(re.sub(r"^\{(.*)\}$", r"\1", latex[start:end], flags=re.DOTALL))
-            end += len(latex[end:]) - len(latex[end:].lstrip())
+        made = latex[: found.start()]
         for n, piece in enumerate(re.split(r"#([1-9])", body)):
-            made += f" {''.join(given[int(piece) - 1 :][:1])}" if n % 2 else piece
-        made += f" {latex[end:]}"
+            made = _joined(made, "".join(given[int(piece) - 1 :][:1]) if n % 2 else piece)
+        made = _joined(made, latex[end:])
         if len(made) > _EXPANDED:
             break
-        latex = re.sub(" +", " ", made)
+        latex = made
     return latex
+
+
+def _joined(before: str, after: str) -> str:
+    """Join texts, with a space where a letter would lengthen the command before it."""
+    is_glued = after[:1].isalpha() and re.search(r"\\[A-Za-z]+$", before[-80:])
+    return f"{before} {after}" if is_glued else before + after
 
 
 # ------------------------------------------------------------------ displays and rows

@@ -1,62 +1,23 @@
-"""The distributed scheduler on a cluster of processes of this machine: nothing leaves loopback."""
+"""The Monte Carlo example on a cluster of processes of this machine: nothing leaves loopback."""
 
 import importlib
-import logging
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import dask
-import dask.array as da
 import numpy as np
 import pytest
-from distributed import Client, LocalCluster
 from numpy.testing import assert_array_equal
 
-from generated import hyperbola, wedge
+from generated import wedge
 from generated.runtime.kernels import COMPILING
-from tests.runtime.test_cycle import cases, each
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "monte_carlo.py"
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture(scope="module")
-def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Client]:
-    with (
-        LocalCluster(
-            n_workers=1,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",
-            silence_logs=logging.CRITICAL,
-            local_directory=str(tmp_path_factory.mktemp("workers")),
-        ) as cluster,
-        Client(cluster) as client,
-    ):
-        yield client
-
-
-@pytest.mark.parametrize("name", ["contact", "stick_zone", "march"])
-def test_processes_give_what_numpy_gives(client: Client, name: str) -> None:
-    function, given = getattr(hyperbola, name), cases("hyperbola", name)
-
-    def lazy(value: Any) -> Any:
-        return da.from_array(value, chunks=(3, *np.shape(value)[1:]))
-
-    for value, known in zip(
-        dask.compute(*function(**each(given, lazy))), function(**given), strict=True
-    ):
-        assert value.dtype == known.dtype
-        np.testing.assert_allclose(value, known, rtol=1e-12, atol=1e-15)
-
-
-# ------------------------------------------------------------------ the Monte Carlo
 
 
 @pytest.fixture(scope="module")

@@ -71,9 +71,6 @@ def test_what_is_masked_or_no_constant_is_nan_where_it_is() -> None:
     assert_array_equal(np.isnan(found), [False, True, True, True, False])
 
 
-# ------------------------------------------------------------------ time
-
-
 # ------------------------------------------------------------------ each chunk once
 
 

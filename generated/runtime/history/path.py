@@ -26,6 +26,9 @@ SHEAR = 4.0
 """Largest change in Q/(f P) in a step, and in h sigma/(8 f P), relative to the largest motion of an
 edge."""
 
+MOST = 2.0
+"""Largest change that SHEAR divides into steps: from sliding one way to sliding the other."""
+
 LAST = 0.01
 """Length of the last step before an instant relative to the others.  The stick zone of the instant
 is that of this step; a slip zone that shrinks is longer in earlier steps."""
@@ -101,8 +104,8 @@ class _Way(NamedTuple):
         uneven = 4 * narrow < wide
         P, _, Q, sigma = self.loads
         shear = max(abs(Q[1] - Q[0]), wide * abs(sigma[1] - sigma[0]) / 8) / (f * max(P))
-        change = max((2 if uneven else 1) * moved / self.widest, shear / SHEAR)
-        count = max(1, math.ceil(change / reach)) if change < math.inf else 1
+        change = max((2 if uneven else 1) * moved / self.widest, min(shear, MOST) / SHEAR)
+        count = max(1, math.ceil(change / reach))
         t = np.arange(count + 1) / count
         if short_end:
             t = np.concatenate([t[:-1], [1 - LAST / count, 1.0]])
