@@ -244,7 +244,9 @@ def _bind(bounds: Bounds) -> None:
 
         setrlimit(RLIMIT_CORE, (0, getrlimit(RLIMIT_CORE)[1]))
         setrlimit(RLIMIT_DATA, (int(bounds.gigabytes * 2**30), getrlimit(RLIMIT_DATA)[1]))
-    sys.stdout, sys.stderr = (os.fdopen(os.dup(number), "w", buffering=1) for number in (1, 2))
+    sys.stdout, sys.stderr = (
+        os.fdopen(os.dup(number), "w", buffering=1, closefd=False) for number in (1, 2)
+    )
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     os.dup2(nowhere, 2)

@@ -2,6 +2,7 @@
 
 from sympy import Symbol, expand
 
+import generated.wedge
 from derive import symbols
 from derive.reading.units import parse_unit
 from derive.symbols import QUANTITIES, RESERVED, a, c, h, mid, w, x
@@ -13,6 +14,10 @@ def test_every_symbol_has_a_meaning_and_a_readable_unit_in_the_table() -> None:
         parse_unit(quantity.unit)
     made = {value for value in vars(symbols).values() if isinstance(value, Symbol)}
     assert made == {quantity.symbol for quantity in QUANTITIES.values()}
+
+
+def test_no_parameter_can_have_the_name_of_a_generated_function() -> None:
+    assert {*generated.wedge.__all__} <= RESERVED
 
 
 def test_signs_are_assumed_where_the_theory_says_so_alone() -> None:
