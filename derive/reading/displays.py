@@ -91,29 +91,28 @@ def displays(path: Path, inline: bool = False) -> Source:
     """
     text = re.sub(r"(?<!\\)((?:\\\\)*)%[^\n]*", r"\1", _text(path))
     start = max(text.find(r"\begin{document}"), 0)
-    macros, spans, found = _macros(text[:start]), [(start, start)], list[Display]()
+    macros, found, between, count = _macros(text[:start]), list[Display](), text, 0
 
-    def add(latex: str, at: int, number: str = "", labels: tuple[str, ...] = ()) -> None:
-        line = text.count("\n", 0, at) + 1
+    def add(latex: str, at: int, number: str = "") -> None:
+        line, labels = text.count("\n", 0, at) + 1, tuple(LABEL.findall(latex))
         found.append(Display(number, labels, line, _expanded(latex, macros).strip()))
 
-    for span, body, at, kind, numbers in _bodies(str(path), text, start):
-        spans.append(span)
-        if len(spans) > _MOST + 1:
+    for (before, at, end, after), kind, numbers in _bodies(str(path), text, start):
+        between, count = between[:before] + " " * (after - before) + between[after:], count + 1
+        if count > _MOST:
             why = f"the file has more than {_MOST} displays"
             raise BadClaimsFile(str(path), why, "split it into smaller files")
-        for offset, latex, number in _groups(body, kind, numbers):
-            add(latex, at + offset, number, tuple(each[1] for each in LABEL.finditer(latex)))
-    if inline:
-        ends = [*(span[0] for span in spans[1:]), len(text)]
-        for (_, gap_start), gap_end in zip(spans, ends, strict=True):
-            for each in _INLINE.finditer(text, gap_start, gap_end):
-                latex = each[1] or each[2]
-                is_relation = re.search(rf"[^\s{{(]\s*{_RELATION}\s*[^\s}})]", latex)
-                if is_relation and len(latex) < _LONGEST_LINE:
-                    add(latex, each.start())
-        found = sorted(found, key=lambda each: each.line)[:_MOST]
-    return Source(found, len(spans) - 1, text)
+        for rows in _groups(text[at:end], kind):
+            printed = (numbers.of(row, kind.endswith("*")) for row in rows)
+            add("".join(rows).removesuffix(r"\\"), at, ", ".join(filter(None, printed)))
+            at += len("".join(rows))
+    for each in _INLINE.finditer(between, start) if inline else ():
+        latex = each[1] or each[2]
+        is_relation = re.search(rf"[^\s{{(]\s*{_RELATION}\s*[^\s}})]", latex)
+        if is_relation and len(latex) < _LONGEST_LINE:
+            add(latex, each.start())
+    found = sorted(found, key=lambda each: each.line)[: _MOST if inline else None]
+    return Source(found, count, text)
 
 
 def _text(path: Path) -> str:
@@ -185,8 +184,8 @@ def _joined(before: str, after: str) -> str:
 
 def _bodies(
     name: str, text: str, start: int
-) -> Iterator[tuple[tuple[int, int], str, int, str, _Numbers]]:
-    """Yield the span, the body with its place, and the kind of each display, and the counter."""
+) -> Iterator[tuple[tuple[int, int, int, int], str, _Numbers]]:
+    """Yield where each display and its body begin and end, its kind, and the counter."""
     numbers, position = _Numbers(), start
     while opening := _START.search(text, position):
         position = opening.end()
@@ -202,40 +201,27 @@ def _bodies(
             raise BadClaimsFile(f"{name}:{line}", f"{opening[0]} is not closed", f"add {close}")
         if kind.startswith("alignat") and (columns := re.match(r"\s*\{\d+\}", text[position:end])):
             position += columns.end()
-        yield (opening.start(), end + len(close)), text[position:end], position, kind, numbers
+        yield (opening.start(), position, end, end + len(close)), kind, numbers
         position = end + len(close)
 
 
-def _groups(body: str, kind: str, numbers: _Numbers) -> Iterator[tuple[int, str, str]]:
-    """Yield the rows that belong together, as start, body and numbers, such as "18, 19"."""
-    starred = kind.endswith("*")
+def _groups(body: str, kind: str) -> list[list[str]]:
+    """Return the rows of a display, grouped by those that belong together."""
     if kind.rstrip("*") not in _ROWS:
-        yield 0, body, numbers.of(body, starred)
-        return
-    begin, printed = 0, list[str]()
-    for n, (start, end) in enumerate(rows_of(body)):
-        if n and _begins(body[start:end]):
-            yield begin, body[begin:start].removesuffix(r"\\"), ", ".join(filter(None, printed))
-            begin, printed = start, []
-        if body[start:end].strip():
-            printed.append(numbers.of(body[start:end], starred))
-    if body[begin:].strip():
-        yield begin, body[begin:], ", ".join(filter(None, printed))
+        return [[body]]
+    groups, start, depth = list[list[str]](), 0, 0
+    for match in re.finditer(r"\\begin(?![A-Za-z])|\\end(?![A-Za-z])|\\\\|\Z", body):
+        depth += (match[0] == r"\begin") - (match[0] == r"\end")
+        row = body[start : match.end()]
+        if (match[0] == r"\\" and depth == 0) or (not match[0] and row.strip()):
+            if not groups or _begins(row):
+                groups.append([])
+            groups[-1].append(row)
+            start = match.end()
+    return groups
 
 
 def _begins(row: str) -> bool:
     """Whether a row has its own left side and does not continue the row before it."""
     plain = re.sub(r"&|\\[,;:! ]|\s", " ", row).strip()
     return not re.match(rf"{_RELATION}|\+|-", plain) and bool(re.search(_RELATION, plain))
-
-
-def rows_of(body: str) -> Iterator[tuple[int, int]]:
-    """Yield the spans of the rows of a display; inner environments are not split."""
-    start, depth = 0, 0
-    for match in re.finditer(r"\\begin(?![A-Za-z])|\\end(?![A-Za-z])|\\\\", body):
-        depth += (match[0] == r"\begin") - (match[0] == r"\end")
-        if match[0] == r"\\" and depth == 0:
-            yield start, match.end()
-            start = match.end()
-    if body[start:].strip():
-        yield start, len(body)

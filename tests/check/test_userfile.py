@@ -227,6 +227,10 @@ BAD_CLAIMS = {
     "given a table": (CIRCLE + "given = [{ a = 1 }]\n", "given[0] must be a text"),
     "never": (CIRCLE + "require = 'r < 0'\n", "its conditions are never satisfied"),
     "part": (CIRCLE.replace("printed", "latex") + "part = 9\n", "part = 9"),
+    "two statements": (
+        CIRCLE.replace('printed = "A = pi*R**2"', "latex = 'A = R = 2'"),
+        "the LaTeX has 2 statements",
+    ),
     "given": (
         CIRCLE + "given = ['nothing']\n",
         "given: 'nothing' is not the label of an earlier claim",

@@ -5,15 +5,12 @@ Every command leaves with status 2, without a traceback, and writes nothing.
 
 import shlex
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 
 import derive.command.new_geometry
 import derive.pipeline
 from derive.command.processes import Bounds, in_processes
-from generated import circular_arc, hertz, power, wedge
 from tests.commands import contents, run
 
 HEAD = """from sympy import *
@@ -73,6 +70,11 @@ COMMANDS = {
     "show hyperbola --slip 3": "--slip",
     "show hertz --code c --latex": "--latex",
     "show hertz --code c --html": "--html",
+    "show hertz --html --slip 2": "cannot be combined",
+    "show hertz --all --html": "give either NAME",
+    "show --html": "give either NAME",
+    "show hertz --out x.html": "--all and --out require --html",
+    "show --all": "--all and --out require --html",
     "show hertz --slip 2 --latex": "--slip",
     "show hertz --code perl": "'c', 'fortran', 'javascript', 'julia', 'matlab'",
     "show nowhere.py": "nowhere.py: there is no such file; a geometry file is a Python file",
@@ -134,19 +136,6 @@ TARGETS = [
     "edge none.csv --f 0.5 --csv",
 ]
 """Commands that end in the path of their result; most of the inputs do not exist."""
-
-NOWHERE = [
-    (hertz.contact, (-1.0,), {"E_star": 1.0, "R": 1.0}),
-    (hertz.contact, (np.nan,), {"E_star": 1.0, "R": 1.0}),
-    (hertz.contact, (1.0, np.inf), {"E_star": 1.0, "R": 1.0}),
-    (hertz.contact, (1.0,), {"E_star": 0.0, "R": 1.0}),
-    (wedge.contact_at_tilt, (1.0, 0.5), {"E_star": 1.0, "phi": 0.25}),
-    pytest.param(  # two or three seconds: no quadrature of it converges
-        *(power.contact, (1.0,), {"E_star": 1.0, "k": 0.5, "L": 1.0}), marks=pytest.mark.slow
-    ),
-    (circular_arc.load, (1.5, 0.5), {"E_star": 1.0, "R": 1.0}),
-]
-"""States that do not exist: NaN, and no warning."""
 
 WITHOUT_MEASURE = {
     "x [m], p [Pa]\n" + "1" * 10**6 + ", 2\n": "characters; at most 20000",
@@ -256,8 +245,3 @@ def test_a_target_that_cannot_be_written_is_refused_before_the_input_is_read(
     message = refused_here(here, *command.split(), target)
     assert f"new{':' * ('--draft' in command)} " in message and "cannot be written (" in message
     assert ("Not a directory" if "notes" in target else "Permission denied") in message
-
-
-@pytest.mark.parametrize(("function", "given", "own"), NOWHERE)
-def test_a_state_that_does_not_exist(function: Any, given: Any, own: dict[str, float]) -> None:
-    assert np.all(np.isnan(np.asarray(function(*given, **own))))

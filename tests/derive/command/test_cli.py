@@ -221,12 +221,6 @@ def test_show_refuses_a_file_that_ends_its_process_or_never_ends(
     assert contents(here).keys() == {"mine.py"}
 
 
-@pytest.mark.slow
-def test_show_prints_the_same_of_a_file_as_of_the_library(here: Path) -> None:
-    shutil.copy(ROOT / "derive" / "geometries" / "hertz.py", here)
-    assert done("show", "hertz.py", "--slip", "1") == done("show", "hertz", "--slip", "1")
-
-
 def test_a_file_is_not_run_to_ask_for_a_directory(here: Path) -> None:
     """`generate` has limits only in its other processes."""
     (here / "ends.py").write_text("import os\nos._exit(3)\n")

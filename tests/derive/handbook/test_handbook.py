@@ -25,7 +25,7 @@ from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.mathml import mathml
 from derive.sheet.picture import TOP
-from tests.commands import done, refused
+from tests.commands import done
 from tests.derive.bodies import assumed, of_library
 
 pytestmark = pytest.mark.slow
@@ -139,21 +139,6 @@ def test_a_page_of_ones_own_is_never_lost(tmp_path: Path) -> None:
 def test_latex_that_would_show_is_refused(latex: str) -> None:
     with pytest.raises(ValueError, match="not typeset"):
         mathml(latex)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "told"),
-    [
-        *(
-            (["hertz", "--html", "--latex"], "--latex"),
-            (["hertz", "--html", "--slip", "2"], "--slip"),
-        ),
-        *((["hertz", "--all", "--html"], "NAME"), (["--html"], "NAME")),
-        *((["hertz", "--out", "x.html"], "--html"), (["--all"], "--html")),
-    ],
-)
-def test_options_that_do_not_go_together(arguments: list[str], told: str) -> None:
-    assert told in refused("show", *arguments).partition("Error: ")[2]
 
 
 @pytest.mark.enough("hertz")
