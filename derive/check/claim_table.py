@@ -158,6 +158,10 @@ class ClaimReader:
             is_definition = relation == Relation.EQUAL and usable(name)
             why = f"the claim {label!r} does not define a symbol"
             place.demand(is_definition, why, "give claims of the form symbol = ...")
+            own = self._made[label].entry
+            why = f"the claim {label!r} has symbols, a body or cases of its own"
+            is_general = not (own.symbols or own.cases or own.body is not None)
+            place.demand(is_general, why, "state it without them, because others do not share them")
             found[name] = formula
         return found
 
@@ -370,7 +374,8 @@ class _Equation:
         used = used.union(*(meant.uses.get(name, ()) for name in used))
         for name in sorted(used & {*(body.parameters if body else ()), "E_star", "f"}):
             given = meant.in_variables.get(Symbol(name))
-            if given is not None and self.context.variables.get(name) in held - given.free_symbols:
+            variable = self.context.variables.get(name)
+            if given is not None and given != variable and variable in held:
                 why = f"{name} is defined as {given}, but formulas of the body also contain {name}"
                 raise self.place.bad(why, f"use {name} in the other symbols instead")
 

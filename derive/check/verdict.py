@@ -66,6 +66,12 @@ class Finding:
         return " ".join(filter(None, [self.basis, ", ".join(told)]))
 
     @property
+    def ground(self) -> str:
+        """What the verdict rests on, in a word, with the verdict on what was given if not true."""
+        word = self.basis.word if self.basis else "-"
+        return f"{word} ({self.unsound})" if self.unsound else word
+
+    @property
     def verdict(self) -> Verdict:
         """The verdict on the claim."""
         return Verdict.CONVENTION if self.convention else self.judged.verdict

@@ -83,6 +83,7 @@ CASES = [
     (HERTZ, "p_0 = 2*P/(pi*a)", 'symbols = { P = "p_0*pi*a/2", p_0 = "E_star" }', "by definition"),
     (CIRCULAR, "p_0 = 2*P/(pi*a)", "", "fails"),
     (FREE, "c = 5*a", 'through = "c + 1 = 1 + c"', "unchecked"),
+    (HERTZ, "P = pi*E_star*a**2/(8*R)", 'symbols = { R = "R/2" }', "unchecked"),
     # inequalities, and what lies beyond the points
     (FREE, "k**2 < k", "", "holds"),
     (FREE, "k*m < 1", "", "holds"),
@@ -147,6 +148,10 @@ given = ["(1)"]
 [[claims]]
 label = "(4)"
 printed = "P < p_0*a"
+[[claims]]
+label = "(5)"
+printed = "p_0 = E_star*a/R"
+symbols = { p_0 = "E_star*a/R" }
 """
 
 
@@ -158,6 +163,7 @@ printed = "P < p_0*a"
         ("u = 4*a**2", "(2)", "holds", "rests on given (2) (unchecked)"),  # u is t**2
         ("p_0 = 4*P/(pi*a)", "(3)", "holds", "given (3) (holds, rests on given (1) (fails))"),
         ("P = p_0*a", "(4)", "unchecked", "does not define a symbol"),
+        ("p_0*R = E_star*a", "(5)", "unchecked", "symbols, a body or cases of its own"),
     ],
 )
 def test_a_claim_says_what_became_of_those_given(
