@@ -16,7 +16,7 @@ import pytest
 from mpmath import mpf
 
 from derive.codegen.trial import imported
-from derive.pipeline import build
+from derive.pipeline import sheet_and_body
 from generated import hyperbola, power
 from generated.runtime import pieces
 from generated.runtime.body import Body
@@ -139,7 +139,7 @@ def made_slope(s: mpf) -> mpf:
 def made(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Told]:
     file = tmp_path_factory.mktemp("made_up") / "one_side_cubic.py"
     file.write_text(TEXT)
-    body = build(str(file))
+    _, body = sheet_and_body(str(file))
     with imported("one_side_cubic", body.text, body.stuck) as module:
         yield Told(module, OWN, made_slope, (OWN["b"], -OWN["h_0"]))
 
