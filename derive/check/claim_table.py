@@ -374,8 +374,7 @@ class _Equation:
         used = used.union(*(meant.uses.get(name, ()) for name in used))
         for name in sorted(used & {*(body.parameters if body else ()), "E_star", "f"}):
             given = meant.in_variables.get(Symbol(name))
-            variable = self.context.variables.get(name)
-            if given is not None and given != variable and variable in held:
+            if given is not None and self.context.variables.get(name) in held - given.free_symbols:
                 why = f"{name} is defined as {given}, but formulas of the body also contain {name}"
                 raise self.place.bad(why, f"use {name} in the other symbols instead")
 
