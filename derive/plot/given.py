@@ -34,7 +34,9 @@ def demand_contact(name: str, body: Any, state: Any, constants: dict[str, float]
 
 
 def demand_labels(labels: Sequence[str], count: int, what: str) -> None:
-    """Demand one label for each, or none."""
+    """Demand at least one thing to draw, and one label for each, or none."""
+    if not count:
+        raise ValueError(f"`{what}` is empty; give at least one")
     if labels and len(labels) != count:
         raise ValueError(
             f"{len(labels)} labels are given for {count} {what}; give one for each, or none"

@@ -41,6 +41,20 @@ def _note_missing(axes: Axes, what: str, names: Sequence[str], curves: Array) ->
         axes.text(0.02, 0.015, text, transform=axes.transAxes)
 
 
+def _instants(at: Any, count: int) -> list[int]:
+    """The indices of instants, counted from zero."""
+    try:
+        found = [range(count)[i] for i in at]
+    except (TypeError, IndexError):
+        found = []
+    if not found or any(isinstance(i, bool) for i in at):
+        raise ValueError(
+            f"`at` is {at!r:.60}; give a list of at least one index from {-count} to {count - 1}, "
+            f"because history has {count} instants"
+        )
+    return found
+
+
 def instants(
     body: ModuleType,
     history: Any,
@@ -92,13 +106,7 @@ def instants(
         If the history does not fit x, f, the body or the constants; the message says what is wrong.
     """
     x, count = positions_of(history, x), np.size(history.a)
-    try:
-        numbers = [range(count)[i] for i in at]
-    except (TypeError, IndexError) as error:
-        raise ValueError(
-            f"`at` is {at!r:.60}; give a list of indices from {-count} to {count - 1}, because "
-            f"history has {count} instants"
-        ) from error
+    numbers = _instants(at, count)
     demand_labels(labels, len(at), "instants")
     bound = _bounds(body, history, x, f, constants)
     chosen = [bound[i] for i in at]

@@ -130,7 +130,7 @@ def test_times_are_those_of_successive_instants(time: Any, words: str) -> None:
         plot.film(hertz, WHOLE, X, time, **FRICTION)
 
 
-@pytest.mark.parametrize("at", [[6], [-7], 3, [3.5], "1", [[1], [2]]])
+@pytest.mark.parametrize("at", [[6], [-7], [], 3, [3.5], [True], "1", [[1], [2]], [[1, 2], [3]]])
 def test_instants_are_chosen_by_a_list_of_indices(at: Any) -> None:
     with pytest.raises(ValueError, match=r"`at` is .*from -6 to 5, because history has 6 instants"):
         plot.instants(hertz, WHOLE, X, at, **FRICTION)

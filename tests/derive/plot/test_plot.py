@@ -368,6 +368,7 @@ REFUSED: dict[str, Callable[[], Any]] = {
     r"states\[0\] is .*, not a single Contact": lambda: pressures(SEVERAL),
     r"states\[0\] is 3.0, not a single .* give one result of `contact`": lambda: pressures(3.0),
     "its edges require .* for the same constants": lambda: pressures(OTHER),
+    "`states` is empty; give at least one": pressures,
     "1 labels are given for 2": lambda: pressures(STATE, STATE, labels=("one",)),
     "first is .*, not a single Contact with finite": lambda: half_cycle(first=NO_CONTACT),
     "dQ is array.*; give one finite number": lambda: half_cycle(dQ=np.ones(3)),
