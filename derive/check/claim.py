@@ -128,6 +128,11 @@ class AsMeant:
         return self.through[0].xreplace(replaced), self.through[1].xreplace(replaced)
 
     @property
+    def compared(self) -> tuple[Expr, Expr]:
+        """The expressions to compare for the sides as printed."""
+        return self.sides(self.left, self.right)
+
+    @property
     def is_inequality(self) -> bool:
         """Whether the claim is judged by which side is larger."""
         return self.relation.is_ordered and self.reached is None

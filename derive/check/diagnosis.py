@@ -63,7 +63,7 @@ def diagnosis(claim: Claim) -> str:
 def quotient(claim: Claim) -> Quotient | None:
     """Return the ratio of the two sides if it is a constant times powers of the variables."""
     meant = claim.meant
-    sides = [side.xreplace(dict(meant.meaning)) for side in meant.sides(meant.left, meant.right)]
+    sides = [side.xreplace(dict(meant.meaning)) for side in meant.compared]
     names = variables(claim)
     most = len(names) + 1 + _LEAST if has_integral(claim) else None
     found, powers = list[tuple[Point, Value]](), None

@@ -16,6 +16,7 @@ from markupsafe import Markup, escape
 from derive.check import report
 from derive.check.claim import Paper, Verdict
 from derive.check.draw import along, has_integral, is_allowed
+from derive.check.judge import Sides
 from derive.check.verdict import Finding
 
 _SAMPLES = 40
@@ -100,12 +101,11 @@ def _curves(finding: Finding) -> Markup | str:
     claim, pairs = finding.claim, finding.judged.pairs
     if finding.verdict != Verdict.FAILS or not pairs or has_integral(claim):
         return ""
-    meant, table = claim.meant, dict(claim.meant.meaning)
-    sides = [side.xreplace(table) for side in meant.sides(meant.left, meant.right)]
+    sides = Sides(claim, *claim.meant.compared, claim.meant.meaning).in_variables
     point = pairs[-1].point
     held = set().union(*(side.free_symbols for side in sides)) & set(point)
     for symbol in sorted(held, key=lambda s: (bool(s.is_positive), s.name)):
-        span = meant.ranges.get(symbol)
+        span = claim.meant.ranges.get(symbol)
         near = (float(point[symbol]) / 2, float(point[symbol]) * 2)
         ends = near if span is None or span.powers else (span.low, span.high)
         across = np.linspace(*ends, _SAMPLES + 2)[1:-1]

@@ -76,7 +76,7 @@ _MANY, _FEW = _Numbers(8, 6, 16, 12, _DECADES), _Numbers(3, 2, 2, 4, 2)
 
 def has_integral(claim: Claim) -> bool:
     """Whether a side, or the meaning of one of its symbols, contains an integral."""
-    sides = claim.meant.sides(claim.meant.left, claim.meant.right)
+    sides = claim.meant.compared
     held = set().union(*(side.free_symbols for side in sides))
     meanings = [expr for symbol, expr in claim.meant.meaning.items() if symbol in held]
     return any(expr.has(Integral) for expr in (*sides, *meanings))
@@ -84,7 +84,7 @@ def has_integral(claim: Claim) -> bool:
 
 def variables(claim: Claim) -> list[Symbol]:
     """Return the variables that need a value at every point."""
-    sides = claim.meant.sides(claim.meant.left, claim.meant.right)
+    sides = claim.meant.compared
     held = set().union(*(side.free_symbols for side in sides))
     meanings = [claim.meant.meaning.get(symbol, symbol) for symbol in held]
     exprs = (*meanings, *claim.meant.conditions, *(claim.meant.toward or ()))

@@ -18,10 +18,8 @@ from derive.proof.values import program
 
 _MOST_BOXES = 2000
 _DIGITS = 20
-_ENCLOSED = set(FUNCTIONS) - {
-    each for each in FUNCTIONS if issubclass(each, sp.logic.boolalg.Boolean)
-}
-_ENCLOSED -= {sp.Piecewise, sp.ITE}
+_CONDITIONS = (sp.logic.boolalg.Boolean, sp.Piecewise, sp.ITE)
+_ENCLOSED = {each for each in FUNCTIONS if not issubclass(each, _CONDITIONS)}
 """Functions whose values over a whole ball are enclosed; conditions are decided at its middle."""
 
 

@@ -85,7 +85,7 @@ def explanation(finding: Finding) -> list[Told]:
     claim, repair = finding.claim, finding.repair
     entry, meant = claim.entry, claim.meant
     latex = "" if claim.unchecked else latex_of_equation(meant, meant.relation)
-    sides = (*meant.sides(meant.left, meant.right), meant.left, meant.right)
+    sides = (*meant.compared, meant.left, meant.right)
     held = set().union(*(side.free_symbols for side in sides))
     symbols = [f"{s} = {text_of(expr)}" for s, expr in meant.meaning.items() if s in held]
     in_vain = "none of them is true" if finding.tried and repair is None else ""

@@ -143,9 +143,7 @@ def _explained(finding: Finding) -> Finding:
     claim = finding.claim
 
     def partly(look: LookAtClock) -> str:
-        sides = Sides(
-            claim, *claim.meant.sides(claim.meant.left, claim.meant.right), claim.meant.meaning
-        )
+        sides = Sides(claim, *claim.meant.compared, claim.meant.meaning)
         return where_true(claim, Judging(sides, look).is_true)
 
     if claim.meant.toward is None and claim.meant.reached is None:

@@ -20,7 +20,7 @@ from derive.command.errors import BadTarget, UserError
 MARK = '<meta name="generator" content="derive '
 """A tag in every page made by a command of this package; only such pages are replaced."""
 
-_FULL = (errno.ENOSPC, errno.EFBIG, errno.EDQUOT)
+_FULL = (errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC))
 """Errors of a full disk, of a limit on the size of files, and of a quota."""
 
 

@@ -118,9 +118,9 @@ def checked(findings: "Sequence[Finding]") -> Group:
     for finding in findings:
         verdict = _verdict_of(finding)
         claim = finding.claim
-        rests_on = Text(finding.basis.word if finding.basis else "-")
+        rests_on = Text(finding.ground)
         if finding.unsound:
-            rests_on.append(f" ({finding.unsound})", style=_VERDICTS[finding.unsound])
+            rests_on.highlight_words([f"({finding.unsound})"], _VERDICTS[finding.unsound])
         table.add_row(Text(claim.name, style="cyan"), verdict, rests_on, claim.entry.says)
     parts: list[RenderableType] = [table]
     for finding in findings:
