@@ -41,28 +41,21 @@ def evaluated(
         return over_chunks(call, function.__name__.lstrip("_"), numbers, (given, constants))
     count = 1 if kind is None else len(kind._fields)
     with np.errstate(all="ignore"):
-        if not shape:
+        if shape:
+            values = _in_blocks(function, [*numbers.values()], count)
+        else:
             result = function(*numbers.values())
             values = [np.float64(v) for v in (result if count > 1 else (result,))]
-        elif math.prod(shape) <= np.getbufsize():
-            result = function(*numbers.values())
-            values = [_shaped(v, shape) for v in (result if count > 1 else (result,))]
-        else:
-            values = _in_blocks(function, [*numbers.values()], count)
     return values[0] if kind is None else kind(*values)
 
 
-def _shaped(value: Any, shape: tuple[int, ...]) -> Any:
-    """A result broadcast to the shape of the arguments."""
-    return value if np.shape(value) == shape else np.broadcast_to(value, shape).copy()
-
-
 def _in_blocks(function: Callable[..., Any], values: list[Any], count: int) -> list[Any]:
+    """The results of a formula, computed in blocks that stay in the processor's cache."""
     varying = [v for v in values if v.ndim]
     flags: Any = [["readonly"]] * len(varying) + [["writeonly", "allocate"]] * count
     blocks = np.nditer(
         [*varying, *[None] * count],
-        ["external_loop", "buffered"],
+        ["external_loop", "buffered", "zerosize_ok"],
         flags,
         [np.float64] * (len(varying) + count),
     )

@@ -9,30 +9,35 @@ For E* = 1, with mid = (c - a)/2,
 
 Newton's method therefore needs no derivatives other than K_N.  Three facts follow: the load grows
 with both edges; its centre, -M/P, moves to the right with c and to the left with a; the tilt grows
-with a and falls with c.
+with a and falls with c.  Any contact that is tried therefore bounds one edge of the one sought:
 
-`place` is a point that is known to lie in the contact: the centre of the load if the moment is
-given, otherwise the point where the tilted body is level.  Newton's steps are taken in the
-logarithms of the distances of the edges from the last kink inside them, or from the place.  Where
-they do not converge, one root search is nested in another: each left edge has one right edge that
-meets the second condition, and along these contacts the load grows with the left edge.
+    load too small, centre too far left or tilt too large:   c is larger
+    load too small, centre too far right or tilt too small:  a is larger
+    load too large, centre too far right or tilt too small:  c is smaller
+    load too large, centre too far left or tilt too large:   a is smaller
+
+Newton's method is kept between these bounds.  `place` is a point that is known to lie in the
+contact: the centre of the load if the moment is given, otherwise the point where the tilted body is
+level.  Steps are taken in the logarithms of the distances of the edges from the last break inside
+them, or from the place.
 """
 
 import math
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from .elementary import EPS, LEAST, MOST
 from .kernels import kernel
-from .search import MAX_STEPS, by_distance, level, narrowed
 
-SHORTEST_PART = 2.0**-10
-"""Newton's method has failed if even this fraction of a step does not reduce the error."""
+MAX_STEPS = 100
+"""Largest number of steps of a search."""
 
-CONTACT_RTOL = 1e-13
-"""The nested search is tried if the error of a contact, apart from rounding, is above this."""
+LONGEST_STEP = 4.0
+"""Longest step in the logarithm of a distance."""
 
 WORST_RTOL = 1e-9
-"""A contact is rejected if its error is above this after both methods."""
+"""A contact is rejected if its error is above this."""
 
 MAX_LOAD_ROUNDING = 1e-4
 """No contact is returned if rounding of its edges changes the load by more than this fraction."""
@@ -40,14 +45,6 @@ MAX_LOAD_ROUNDING = 1e-4
 MAX_EDGE_ROUNDING = 1e-2
 """No contact is returned if rounding of its place or tilt moves an edge by more than this fraction
 of the width."""
-
-
-class Curve(NamedTuple):
-    """The part of a body's `Law` that determines its contacts."""
-
-    state: Any
-    slope: Any
-    breaks: Any
 
 
 class Target(NamedTuple):
@@ -69,274 +66,216 @@ class Target(NamedTuple):
 
 
 @kernel
-def _is_contact(now: Any) -> bool:
-    """Whether a state is that of a contact within the ends of the body."""
-    load, _, _, left, right = now
-    return 0 < load < math.inf and 0 < left < math.inf and 0 < right < math.inf
+def _misses(slope: Any, own: Any, target: Any, a: float, c: float, now: Any) -> Any:
+    """How far a contact is from its target: two numbers that grow with c.  With a the first one
+    grows, and the second one falls.
 
-
-@kernel
-def _residuals(target: Any, a: float, c: float, now: Any) -> Any:
-    """How far a contact is from its target.
-
-    The first value is the logarithm of the target load over the load.  The second value is the
-    residual of the second condition: a distance relative to h/4, or a tilt in a unit that makes it
-    comparable with a change in the logarithm of the load.
+    The first number is the logarithm of the load over the target load.  The second one belongs to
+    the other condition: a distance relative to h/4, or a tilt in a unit that makes it comparable
+    with a change in the logarithm of the load.  Where the state is not known, only their signs mean
+    anything.  [-a, c] carries at most h/4 times the difference of the slopes at its ends, and
+    nothing if the body is straight there; the centre is then that of a slight, even curvature.
+    Beyond the body, and where numbers are too large, the steeper end is taken to be too far out.
     """
     load, moment, tilt, _, _ = now
-    h = a + c
-    arm = target.place + moment / load
-    residual = (target.tilt - tilt) * h / load if target.held else 4 * arm / h
-    return math.log(target.load / load), residual
+    h, mid = a + c, (c - a) / 2
+    first = math.log(load / target.load) if load > 0 else math.inf
+    if target.held:
+        second = math.pi / 4 * (target.tilt - tilt) * h / load
+    else:
+        second = 4 * (-moment / load - target.place) / h
+    if load > 0 and abs(second) < math.inf:
+        return first, second
+    left, right = slope(-a, own)[0], slope(np.nextafter(c, -math.inf), own)[0]
+    if not load > 0 and h * (right - left) / 4 < target.load:
+        return -math.inf, mid - target.place
+    return first, left + right
 
 
 @kernel
-def _step(target: Any, a: float, c: float, now: Any) -> Any:
+def _step(target: Any, a: float, c: float, now: Any, first: float, second: float) -> Any:
     """Newton's step for a and c."""
     load, moment, _, left, right = now
     h, mid = a + c, (c - a) / 2
-    shortfall, residual = _residuals(target, a, c, now)
     force = 4 * load / (math.pi * math.sqrt(h))
-    both = force * shortfall  # K_left da + K_right dc
-    if target.held:
-        odd = -force * math.pi / 4 * residual  # K_right dc - K_left da
-    else:
-        odd = force * residual - 4 * both * (mid + moment / load) / h
+    both = -force * first  # K_left da + K_right dc
+    odd = -force * second  # K_right dc - K_left da
+    if not target.held:
+        odd -= 4 * both * (mid + moment / load) / h
     return (both - odd) / 2 / left, (both + odd) / 2 / right
 
 
 @kernel
-def _error(target: Any, a: float, c: float, now: Any) -> float:
-    """The distance of a contact from its target as one number."""
-    if not _is_contact(now):
-        return math.inf
-    shortfall, residual = _residuals(target, a, c, now)
-    return math.hypot(shortfall, residual)
-
-
-# ---------------------------------------------------------------- Newton's method
-
-
-@kernel
-def _width(law: Any, own: Any, breaks: Any, target: Any) -> float:
-    """Width of a contact centred at the place with nearly the target load; NaN if there is none.
-
-    The first guess follows from the curvature at the place, but does not reach far beyond the
-    nearest break.
-    """
-    curvature = law.slope(target.place, own)[1]
-    h = nearest = math.inf
-    if 0 < curvature < math.inf:
-        h = 4 * math.sqrt(target.load / (math.pi * curvature))
-    for at in breaks:
-        nearest = min(nearest, abs(at - target.place))
-    h = min(h, max(4 * nearest, target.load))
-    search = by_distance(0.0, math.inf, math.inf, h)
-    for _ in range(MAX_STEPS):
-        h = math.exp(search.y)
-        now = law.state(h / 2 - target.place, h / 2 + target.place, own)
-        load, _, _, left, right = now
-        over, rate = (math.inf if load == math.inf else -1.0), 0.0
-        if _is_contact(now):
-            over = math.log(load / target.load)
-            rate = math.pi * math.sqrt(h) / 8 * h * (left + right) / load
-            if abs(over) < 1:  # Newton's method converges from here
-                return h
-        search = narrowed(search, over, rate)
-        if search.high - search.low < 0.1:  # the load jumps at a kink
-            return math.exp(search.low if search.top == math.inf else search.high)
-    return math.nan
-
-
-@kernel
-def _last_break(edge: float, inner: float, breaks: Any, side: float) -> float:
-    """The last break inside an edge, or the point `inner` if no break lies between them.
-
-    Positions are counted outward: c with side 1, a with side -1.
-    """
-    last = inner
-    for at in breaks:
-        if last < side * at < edge:
-            last = side * at
-    return last
-
-
-@kernel
-def _moved(edge: float, start: float, by: float) -> float:
-    """The edge after a step that is taken in the logarithm of its distance from `start`."""
-    distance = edge - start
-    return edge + distance * math.expm1(min(max(by / distance, -4.0), 4.0))
-
-
-@kernel
-def _newton(law: Any, own: Any, breaks: Any, target: Any, a: float, c: float) -> Any:
-    """The contact by Newton's method, or the closest one that the method reached."""
-    now = law.state(a, c, own)
-    miss = _error(target, a, c, now)
-    for _ in range(MAX_STEPS):
-        if miss == math.inf:
-            break
-        by_a, by_c = _step(target, a, c, now)
-        from_a = _last_break(a, -target.place, breaks, -1.0)
-        from_c = _last_break(c, target.place, breaks, 1.0)
-        if not (a > from_a and c > from_c):
-            break
-        length = max(abs(by_a) / (a - from_a), abs(by_c) / (c - from_c))
-        rounding = 4 * EPS * max(abs(a) / (a - from_a), abs(c) / (c - from_c))
-        if length < math.sqrt(EPS) + rounding:  # the square of a step is the error after it
-            return a + by_a, c + by_c
-        part, better = 1.0, False
-        while part > SHORTEST_PART and not better:
-            # measure the step first from the nearest breaks inside the edges, then from the
-            # reference point, so that an edge can cross a break
-            for starts in ((from_a, from_c), (-target.place, target.place)):
-                next_a = _moved(a, starts[0], part * by_a)
-                next_c = _moved(c, starts[1], part * by_c)
-                after = law.state(next_a, next_c, own)
-                missed = _error(target, next_a, next_c, after)
-                if missed < miss:
-                    a, c, now, miss, better = next_a, next_c, after, missed, True
-                    break
-            part /= 4
-        if not better:
-            break
-    return a, c
-
-
-# ---------------------------------------------------------------- one root inside the other
-
-
-@kernel
-def _second_condition(law: Any, own: Any, target: Any, a: float, c: float) -> Any:
-    """An increasing function of c, zero where the second condition is met; its derivative."""
-    now = law.state(a, c, own)
-    load, moment, tilt, _, right = now
-    if load == math.inf:
-        return math.inf, 0.0
-    if not _is_contact(now):
-        return -1.0, 0.0
-    h = a + c
-    if target.held:
-        return target.tilt - tilt, right / math.sqrt(h)
-    centre = -moment / load
-    arm = (c - a) / 2 + h / 4 - centre
-    return centre - target.place, math.pi * math.sqrt(h) / 4 * right * arm / load
-
-
-@kernel
-def _load_condition(law: Any, own: Any, target: Any, a: float, c: float) -> Any:
-    """log(load/target load), and its derivative with respect to a if the second condition holds."""
-    if c == math.inf:
-        return -1.0, 0.0
-    now = law.state(a, c, own)
-    load, _, _, left, _ = now
-    if c != c or load == math.inf:
-        return math.inf, 0.0
-    if not _is_contact(now):
-        return -1.0, 0.0
-    h = a + c
-    rate = math.pi * math.sqrt(h) / 2 * left / load
-    if not target.held:
-        arm = (c - a) / 2 + h / 4 - target.place
-        rate *= h / 4 / arm if arm > 0 else 0.0
-    return math.log(load / target.load), rate
-
-
-@kernel
-def _right_edge(law: Any, own: Any, breaks: Any, target: Any, a: float, guess: float) -> float:
-    """The right edge that meets the second condition for a given left edge, starting from a guess.
-
-    Infinite if no contact with this left edge carries any load, NaN if none meets the condition.
-    """
-    start, end, top = target.place, math.inf, math.inf
-    for at in breaks:
-        if start < at < end:
-            value, _ = _second_condition(law, own, target, a, at)
-            if value < 0:
-                start = at
-            else:
-                end, top = at, value
-    guess = guess if start < guess < end else min(start + a + target.place, (start + end) / 2)
-    search = by_distance(start, end - start, top, guess - start)
-    for _ in range(MAX_STEPS):
-        far = math.exp(search.y)
-        value, rate = _second_condition(law, own, target, a, start + far)
-        search = narrowed(search, value, rate * far)
-        if search.step == 0:
-            break
-    if search.top < math.inf:
-        return start + math.exp(search.y)
-    now = law.state(a, start + math.exp(search.high), own)
-    return math.nan if now[0] == math.inf or _is_contact(now) else math.inf
-
-
-@kernel
-def _nested(law: Any, own: Any, breaks: Any, target: Any, size: float) -> Any:
-    """The contact by two nested root searches; NaN if there is none."""
-    start, end, top, c = -target.place, math.inf, math.inf, math.nan
-    for i in range(breaks.size):
-        at = -breaks[breaks.size - 1 - i]
-        if start < at < end:
-            c = _right_edge(law, own, breaks, target, at, c)
-            value, _ = _load_condition(law, own, target, at, c)
-            if value < 0:
-                start = at
-            else:
-                end, top = at, value
-    search = by_distance(start, end - start, top, min(size, (end - start) / 2))
-    for _ in range(MAX_STEPS):
-        far = math.exp(search.y)
-        c = _right_edge(law, own, breaks, target, start + far, c)
-        value, rate = _load_condition(law, own, target, start + far, c)
-        search = narrowed(search, value, rate * far)
-        if search.step == 0:
-            break
-    return (start + far, c) if search.top < math.inf else (math.nan, math.nan)
-
-
-# ---------------------------------------------------------------- the whole solution
-
-
-@kernel
-def _checked(law: Any, own: Any, target: Any, a: float, c: float) -> Any:
+def _checked(slope: Any, own: Any, target: Any, a: float, c: float, now: Any) -> Any:
     """The error of a contact apart from rounding, and its tilt, which is NaN if not determined.
 
     Rounding of the edges changes the load; rounding of the given place or tilt moves the edges.
     """
-    now = law.state(a, c, own)
+    load, moment, tilt, left, right = now
     h = a + c
-    if not (LEAST < h < MOST and _is_contact(now)):
+    first, second = _misses(slope, own, target, a, c, now)
+    if not (LEAST < h < MOST and 0 < left < math.inf and 0 < right < math.inf):
         return math.inf, math.nan
-    load, _, tilt, left, right = now
-    shortfall, residual = _residuals(target, a, c, now)
-    if not (abs(shortfall) < math.inf and abs(residual) < math.inf):
+    if not (abs(first) < math.inf and abs(moment) + abs(tilt) < math.inf):
         return math.inf, math.nan
     edges = math.pi / 4 * EPS * math.sqrt(h) * (left * abs(a) + right * abs(c)) / load
     given = EPS * (abs(target.tilt) * h / load if target.held else abs(target.place) / h)
-    error = max(abs(shortfall) - 16 * edges, (abs(residual) - 16 * (edges + given)) / 16, 0.0)
+    error = max(abs(first) - 16 * edges, (abs(second) - 16 * (edges + given)) / 16, 0.0)
     if edges > MAX_LOAD_ROUNDING or given > MAX_EDGE_ROUNDING:
         tilt = math.nan
     return error, tilt
 
 
+# ---------------------------------------------------------------- steps between bounds
+
+
 @kernel
-def _solved(law: Any, own: Any, target: Any) -> Any:
-    """The contact and its tilt; NaN if there is none."""
-    if not (0 < target.load < math.inf and abs(target.place) < MOST):
-        return math.nan, math.nan, math.nan
-    breaks = law.breaks(own)
-    h = _width(law, own, breaks, target)
-    a, c = _newton(law, own, breaks, target, h / 2 - target.place, h / 2 + target.place)
-    error, tilt = _checked(law, own, target, a, c)
-    if error > CONTACT_RTOL:
-        other_a, other_c = _nested(law, own, breaks, target, target.load)
-        other_a, other_c = _newton(law, own, breaks, target, other_a, other_c)
-        other_error, other_tilt = _checked(law, own, target, other_a, other_c)
-        if other_error < error:
-            a, c, error, tilt = other_a, other_c, other_error, other_tilt
-    if not error < WORST_RTOL or tilt != tilt:
-        return math.nan, math.nan, math.nan
-    return a, c, tilt
+def _reach(edge: float, start: float) -> float:
+    """The distance of an edge from `start`, but not less than its rounding."""
+    return max(edge - start, EPS * abs(start), LEAST)
+
+
+@kernel
+def _moved(edge: float, by: float, start: float, end: float, low: float, high: float) -> float:
+    """The edge after a step in the logarithm of its distance from `start`, kept between bounds.
+
+    A step beyond `start` or `end` ends there, so that the edge can cross a break.  A step beyond a
+    bound, or an infinite one, goes half of the way to the bound.
+    """
+    if edge + by <= start and start > low:
+        return start
+    distance = _reach(edge, start)
+    moved = start + distance * math.exp(min(max(by / distance, -LONGEST_STEP), LONGEST_STEP))
+    if moved > end and end < high:
+        return end
+    if abs(by) < math.inf and low <= moved <= high:
+        return moved
+    halfway = math.log(_reach(high if by > 0 else low, start) / distance) / 2
+    return start + distance * math.exp(min(max(halfway, -LONGEST_STEP), LONGEST_STEP))
+
+
+@kernel
+def _level(slope: Any, own: Any, breaks: Any, alpha: float) -> float:
+    """The point where the tilted body is level, g'(x) + alpha = 0; NaN if there is none.
+
+    It is a corner if the tilt lies between the slopes there, and the middle of a flat.
+    """
+    if not abs(alpha) < math.inf:
+        return math.nan
+    before, beyond = -MOST, MOST  # the body falls left of `before`, rises from `beyond` on
+    for at in breaks:
+        if slope(np.nextafter(at, -math.inf), own)[0] + alpha <= 0:
+            before = at
+        if beyond == MOST and slope(at, own)[0] + alpha >= 0:
+            beyond = at
+    if before >= beyond:
+        return (before + beyond) / 2
+    if before < 0 < beyond:
+        excess = slope(0.0, own)[0] + alpha
+        if excess == 0:
+            return 0.0
+        if excess < 0:
+            before = 0.0
+        else:
+            beyond = 0.0
+    # the root is sought from one end of the interval, to the right or to the left
+    side, start, high = (1.0, before, beyond) if before > -MOST else (-1.0, -beyond, -before)
+    if high == MOST and side * (slope(side * high, own)[0] + alpha) < 0:
+        return math.nan
+    low, step = start, math.inf
+    x = start + min((high - start) / 2, abs(start) if start != 0 else 1.0)
+    for _ in range(MAX_STEPS):
+        now, curvature = slope(side * x, own)
+        value, rounding = side * (now + alpha), 2 * EPS * max(abs(x), x - start)
+        by = -value / curvature if 0 < curvature < math.inf else math.inf
+        if value < 0:
+            low = x
+        else:
+            high = x
+        if abs(by) <= rounding or high - low <= rounding:
+            break
+        if not abs(by) <= step / 2:
+            by = math.inf if value < 0 else -math.inf
+        last, x = x, _moved(x, by, start, high, low, high)
+        step = abs(x - last)
+    return side * x
+
+
+# ---------------------------------------------------------------- the contact
+
+
+@kernel
+def _first_width(slope: Any, own: Any, target: Any) -> float:
+    """The width of the first contact, which is centred at the place, to within a factor of two.
+
+    A contact carries nearly h/4 times the difference of the slopes at its ends: all of it if the
+    slope changes at the centre, and pi/4 of it if the slope changes evenly.
+    """
+    low, high, h = 0.0, MOST, target.load
+    for _ in range(MAX_STEPS):
+        left, right = slope(target.place - h / 2, own)[0], slope(target.place + h / 2, own)[0]
+        if h * (right - left) / 4 < target.load:
+            low, by = h, math.inf
+        else:
+            high, by = h, -math.inf
+        h = _moved(h, by, 0.0, high, low, high)
+        if high < 4 * low:
+            break
+    return h
+
+
+@kernel
+def _piece(edge: float, inner: float, breaks: Any, side: float) -> Any:
+    """The last break inside an edge, or the point `inner`, and the next break beyond the edge.
+
+    Positions are counted outward: c with side 1, a with side -1.
+    """
+    start, end = inner, MOST
+    for at in breaks:
+        if start < side * at < edge:
+            start = side * at
+        if edge < side * at < end:
+            end = side * at
+    return start, end
+
+
+@kernel
+def _found(state: Any, slope: Any, own: Any, breaks: Any, target: Any) -> Any:
+    """The contact by Newton's method between bounds, or the closest one that it reached.
+
+    Newton's step is taken if the last step has at least halved the error.  Otherwise the edge whose
+    bound is new goes half of the way to its other bound.
+    """
+    low_a, high_a, low_c, high_c = -target.place, MOST, target.place, MOST
+    h, error = _first_width(slope, own, target), math.inf
+    a, c = low_a + h / 2, low_c + h / 2
+    for _ in range(MAX_STEPS):
+        now = state(a, c, own)
+        first, second = _misses(slope, own, target, a, c, now)
+        by_a, by_c = _step(target, a, c, now, first, second)
+        from_a, to_a = _piece(a, -target.place, breaks, -1.0)
+        from_c, to_c = _piece(c, target.place, breaks, 1.0)
+        reach_a, reach_c = _reach(a, from_a), _reach(c, from_c)
+        length = max(abs(by_a) / reach_a, abs(by_c) / reach_c)
+        rounding = 4 * EPS * max(abs(a) / reach_a, abs(c) / reach_c)
+        error, last = math.hypot(first, second), error
+        if max(length, error) < math.sqrt(EPS) + rounding:  # the next error is the square
+            return a + by_a, c + by_c
+        outward, on_right = first < 0, (first < 0) == (second < 0)
+        if on_right and outward:
+            low_c = c
+        elif on_right:
+            high_c = c
+        elif outward:
+            low_a = a
+        else:
+            high_a = a
+        if not (length < math.inf and error <= last / 2):
+            by = math.inf if outward else -math.inf
+            by_a, by_c = (0.0, by) if on_right else (by, 0.0)
+        a = _moved(a, by_a, from_a, to_a, low_a, high_a)
+        c = _moved(c, by_c, from_c, to_c, low_c, high_c)
+    return a, c
 
 
 def solve(
@@ -349,10 +288,15 @@ def solve(
     state, slope, breaks  those of the law
     given                 the centre of the load; the tilt if `held`
     """
-    curve = Curve(state, slope, breaks)
-    if held:
-        return _solved(curve, own, Target(load, level(curve, own, given), given, True))
-    return _solved(curve, own, Target(load, given, 0.0, False))
+    points = breaks(own)
+    place, tilt = (_level(slope, own, points, given), given) if held else (given, 0.0)
+    if 0 < load < math.inf and abs(place) < MOST:
+        target = Target(load, place, tilt, held)
+        a, c = _found(state, slope, own, points, target)
+        error, tilt = _checked(slope, own, target, a, c, state(a, c, own))
+        if error < WORST_RTOL and tilt == tilt:
+            return a, c, tilt
+    return math.nan, math.nan, math.nan
 
 
 @kernel

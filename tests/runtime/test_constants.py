@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from generated import edge, hertz, power, rounded_wedge
+from generated import edge, hertz, power, quartic, rounded_wedge
 from generated.runtime.types import Contact, Regime
 
 F = 0.5
@@ -72,6 +72,12 @@ def far_contacts_are_found() -> bool:
     found = rounded_wedge.contact(P, M, E_star=1.0, b=1.0, phi=0.5)
     back = rounded_wedge.load(found.a, found.c, E_star=1.0, b=1.0, phi=0.5)
     return bool(abs(back / P - 1) < 1e-6)
+
+
+def light_contacts_are_found() -> bool:
+    """The search begins at a width of P/E*; the contact is 1e45 times as wide."""
+    found = quartic.contact(1e-60, 0.0, E_star=1.0, L=1.0)
+    return bool(abs(quartic.load(found.a, found.c, E_star=1.0, L=1.0) / 1e-60 - 1) < 1e-12)
 
 
 def integrals_agree_with_the_closed_form() -> bool:
@@ -200,6 +206,7 @@ TABLE: dict[str, tuple[Any, Callable[[], bool]]] = {
     "edge.rig.MAX_SLIP": (2.0, a_long_slip_zone_gives_a_warning),
     "edge.rig.MATCH_RTOL": (1e-7, what_is_missed_is_told),
     "inverse.MAX_STEPS": (10, far_contacts_are_found),
+    "inverse.LONGEST_STEP": (0.4, light_contacts_are_found),
     "slip.series.MAX_STEPS": (4, series_are_solved),
     "pieces.MAX_LEVEL": (0, integrals_agree_with_the_closed_form),
     "slip.bounded.RULES": (1, large_zones_are_found),
