@@ -759,7 +759,7 @@ def march(
     >>> march(1.52958, 0.45122, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return cycle.march(_BODY, {"R": R, "b": b}, P, M, Q, sigma, f, E_star)
+    return public.march(_BODY, {"R": R, "b": b}, P, M, Q, sigma, f, E_star)
 
 
 def history(

@@ -743,7 +743,7 @@ def march(
     >>> march(0.386889, 0.0597185, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return cycle.march(_BODY, {"R": R}, P, M, Q, sigma, f, E_star)
+    return public.march(_BODY, {"R": R}, P, M, Q, sigma, f, E_star)
 
 
 def history(

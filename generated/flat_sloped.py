@@ -835,7 +835,7 @@ def march(
     >>> march(0.278093, 0.0835698, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return cycle.march(_BODY, {"b": b, "phi": phi}, P, M, Q, sigma, f, E_star)
+    return public.march(_BODY, {"b": b, "phi": phi}, P, M, Q, sigma, f, E_star)
 
 
 def history(

@@ -817,7 +817,7 @@ def march(
     >>> march(2.89539, 1.08337, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return cycle.march(_BODY, {"L": L, "R": R}, P, M, Q, sigma, f, E_star)
+    return public.march(_BODY, {"L": L, "R": R}, P, M, Q, sigma, f, E_star)
 
 
 def history(

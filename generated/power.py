@@ -768,7 +768,7 @@ def march(
     >>> march(1.22718, 0.306796, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return cycle.march(_BODY, {"L": L, "k": k}, P, M, Q, sigma, f, E_star)
+    return public.march(_BODY, {"L": L, "k": k}, P, M, Q, sigma, f, E_star)
 
 
 def history(

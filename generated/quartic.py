@@ -770,7 +770,7 @@ def march(
     >>> march(1.6682, 0.776578, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return cycle.march(_BODY, {"L": L}, P, M, Q, sigma, f, E_star)
+    return public.march(_BODY, {"L": L}, P, M, Q, sigma, f, E_star)
 
 
 def history(

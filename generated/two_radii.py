@@ -849,7 +849,7 @@ def march(
     >>> march(1.22718, 0.306796, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return cycle.march(_BODY, {"R_1": R_1, "R_2": R_2}, P, M, Q, sigma, f, E_star)
+    return public.march(_BODY, {"R_1": R_1, "R_2": R_2}, P, M, Q, sigma, f, E_star)
 
 
 def history(

@@ -783,7 +783,7 @@ def march(
     >>> march(0.153093, 0.0191366, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return cycle.march(_BODY, {"phi": phi}, P, M, Q, sigma, f, E_star)
+    return public.march(_BODY, {"phi": phi}, P, M, Q, sigma, f, E_star)
 
 
 def history(

@@ -850,7 +850,7 @@ def march(
     >>> march(0.534937, -0.0289272, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return cycle.march(_BODY, {"R": R, "phi": phi}, P, M, Q, sigma, f, E_star)
+    return public.march(_BODY, {"R": R, "phi": phi}, P, M, Q, sigma, f, E_star)
 
 
 def history(

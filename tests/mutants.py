@@ -79,7 +79,6 @@ NAMED = {
     "march": ("tests/runtime/test_march.py",),
     "mixed": ("tests/generated/test_turning.py",),
     "series": ("tests/generated/test_slip.py",),
-    "locked": ("tests/runtime/test_zone.py",),
     "segments": ("tests/runtime/test_segments.py",),
     "inverse": ("tests/generated/test_library.py",),
     "cycle": ("tests/runtime/test_cycle.py",),

@@ -1,4 +1,4 @@
-"""What the functions of a body call that are solved numerically, from contacts to a march.
+"""What the functions of a body call that are solved numerically, from contacts to slip.
 
 Each takes the body, its parameters by name, and then the arguments of the public function, whose
 docstring in the generated module says what it returns.
@@ -14,11 +14,10 @@ from .body import Body
 from .chunks import any_lazy, over_chunks
 from .forward import each_contact, each_contact_at_tilt, each_pressure, each_series, each_state
 from .reasons import reason
-from .slip.march import marched
 from .slip.series import each_slip_zones
 from .slip.shear import each_shear_change, each_slip_range, rises_and_falls
-from .slip.zone import each_stick_zone
-from .types import Array, Contact, Edges, March, Regime, StickZone, Threshold, Values
+from .slip.zone import each_constant_zone, each_zone
+from .types import Array, Contact, Edges, Regime, StickZone, Threshold, Values
 
 Own = dict[str, Any]
 """The parameters of a body, by name."""
@@ -142,13 +141,25 @@ def stick_zone(
     if not isinstance(mixed, bool | np.bool_):
         raise TypeError(f"mixed must be True or False, one value for all; got {mixed!r:.60}")
     given = _between(first, second, dQ=dQ, dsigma=dsigma)
-    solve = _mixed_stick_zone if mixed else _stick_zone
-    return solve(body, given, {"f": f, "E_star": E_star}, own)
+    return stick_zones(body, given, {"f": f, "E_star": E_star}, own, bool(mixed))
 
 
-def _stick_zone(body: Body, given: Own, constants: Own, own: Own) -> StickZone:
-    zone: StickZone = solved(each_stick_zone, body, given, constants, own, StickZone, ("regime",))
+def stick_zones(body: Body, given: Own, constants: Own, own: Own, mixed: bool) -> StickZone:
+    """Stick zones; `given` are the edges of both contacts, then dQ and dsigma, in this order."""
+    if mixed:
+        return _mixed_stick_zone(body, given, constants, own)
+    each = each_zone if _varies(given) else each_constant_zone
+    zone: StickZone = solved(each, body, given, constants, own, StickZone, ("regime",))
     return zone
+
+
+def _varies(given: Own) -> bool:
+    """Whether any contact may change; Dask arrays are not compared."""
+    a, c, a_2, c_2, *_ = given.values()
+    return any(
+        one is not two and (any_lazy([one, two]) or not np.array_equal(one, two))
+        for one, two in ((a, a_2), (c, c_2))
+    )
 
 
 def _mixed_stick_zone(body: Body, given: Own, constants: Own, own: Own) -> StickZone:
@@ -158,7 +169,7 @@ def _mixed_stick_zone(body: Body, given: Own, constants: Own, own: Own) -> Stick
         call, groups = partial(_mixed_stick_zone, body), (given, constants, own)
         lazy: StickZone = over_chunks(call, "stick_zone", numbers, groups)
         return lazy
-    zone = _stick_zone(body, given, constants, own)
+    zone = stick_zones(body, given, constants, own, False)
     if not np.any(zone.regime == Regime.MIXED):
         return zone
     from .slip.mixed import with_mixed  # needs SciPy
@@ -304,51 +315,3 @@ def shear(
     with np.errstate(all="ignore"):
         known = rises_and_falls((a, c), rise, risen, fall, fallen)
         return np.where(known, up / 2 - down, np.nan)[()]
-
-
-# ---------------------------------------------------------------- a cycle through time
-
-
-def march(
-    body: Body,
-    own: Own,
-    P: Values,
-    M: Values,
-    Q: Values,
-    sigma: Values,
-    f: Values,
-    E_star: Values,
-    mixed: bool = False,
-) -> March:
-    """A steady cycle instant by instant."""
-    numbers = numbers_of(
-        {"P": P, "M": M, "Q": Q, "sigma": sigma}, {"f": f, "E_star": E_star, **own}
-    )
-    shape = shape_of(numbers)
-    if any_lazy(numbers.values()):
-        axes = dict.fromkeys(March._fields, "t")
-        lazy: March = over_chunks(partial(march, body), "march", numbers, (own,), axes)
-        return lazy
-    if not shape or shape[-1] < 2:
-        raise ValueError(
-            f"a cycle needs at least two instants along the last axis; got shape {shape}"
-        )
-    held = {name: _held(numbers[name], shape) for name in ("f", *own)}
-    f = held.pop("f")
-    with np.errstate(all="ignore"):
-        loads = [numbers[name] / numbers["E_star"] for name in ("P", "M", "Q", "sigma")]
-        loads = [np.broadcast_to(v, shape) for v in loads]
-        return marched(body, held, f, loads, _mixed_stick_zone if mixed else _stick_zone)
-
-
-def _held(value: Any, shape: tuple[int, ...]) -> Any:
-    """The values of a constant, one per cycle, along an axis of length one.
-
-    Raises ValueError if the constant changes with time.
-    """
-    held = np.broadcast_to(value, shape)
-    if np.any((held != held[..., :1]) & ~np.isnan(held)):
-        raise ValueError(
-            "f, E_star and the body's parameters must not change along the last axis, which is time"
-        )
-    return held[..., :1]

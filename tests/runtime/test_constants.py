@@ -140,19 +140,6 @@ def a_small_change_is_a_change() -> bool:
     return _march(0.1 + 1e-12 * np.sin(T)) == ["MODERATE"]
 
 
-def _carried(share: float) -> bool:
-    """Whether a rocked cylinder carries part of its largest shear load (test_locked.py)."""
-    locked = import_module("generated.runtime.slip.locked")
-    d, own = 0.4, {"R": 1.0}
-    highest = F * (math.pi / 4 - (d * math.sqrt(1 - d * d) + math.asin(d)) / 2)
-    ends = [np.array([LOAD, LOAD * lean, share * highest, 0.0]) for lean in (d, -d)]
-    return bool(locked.carries(hertz._BODY, own, F, *ends, Regime.FULL_STICK))
-
-
-def the_largest_mean_shear_is_known() -> bool:
-    return _carried(0.996) and not _carried(1.004)
-
-
 # ---------------------------------------------------------------- histories
 
 
@@ -211,11 +198,9 @@ TABLE: dict[str, tuple[Any, Callable[[], bool]]] = {
     "pieces.MAX_LEVEL": (0, integrals_agree_with_the_closed_form),
     "slip.bounded.RULES": (1, large_zones_are_found),
     "slip.shear.FINEST": (0, shear_carries_the_change_in_load),
-    "slip.march.MAX_LAST_STEP": (9.9, a_first_loading_is_not_closed),
-    "slip.march.PHASE_RTOL": (1e-5, loads_out_of_proportion_are_refused),
-    "slip.march.LOAD_RTOL": (1e-11, a_small_change_is_a_change),
-    "slip.locked.POINTS": (20, the_largest_mean_shear_is_known),
-    "slip.locked.LIMIT_RTOL": (1e-2, the_largest_mean_shear_is_known),
+    "history.march.MAX_LAST_STEP": (9.9, a_first_loading_is_not_closed),
+    "history.march.PHASE_RTOL": (1e-5, loads_out_of_proportion_are_refused),
+    "history.march.LOAD_RTOL": (1e-11, a_small_change_is_a_change),
     "history.reversals.IN_PHASE": (1e-8, in_phase_is_exact_and_nearly_in_phase_is_not),
     "history.refine.FEWEST": (6, a_fine_mesh_is_accurate),
     "history.refine.MAX_ROUNDS": (1, cycles_settle),

@@ -7,6 +7,7 @@ steps       the state of the elements, and one load step
 zones       stick zones on elements: that of a load step, and the permanent one of a cycle
 refine      histories and steady cycles on successively finer meshes, with an estimate of the error
 reversals   moderate tension in phase at constant normal loads: exact, a stack of reversals
+march       cycles in phase instant by instant, from the exact stick zones
 loops       closed loops of P and Q at a constant tilt: the exact stick zone
 public      the functions that a generated module calls
 """

@@ -11,10 +11,12 @@ import numpy as np
 from ..arrays import Numbers, numbers_of, shape_of
 from ..body import Body
 from ..chunks import any_lazy, over_chunks
-from ..cycle import Own, contact, march, slip_range
+from ..cycle import Own, contact, slip_range
 from ..types import Array, History, Regime, SteadyCycle, StickZone, Values
 from . import refine
 from .loops import stick_zone_of_loop
+from .march import in_phase, is_limited
+from .march import march as march
 from .reversals import exact_history
 
 _LOADS = ("P", "M", "Q", "sigma")
@@ -28,10 +30,6 @@ WHOLE = ("intervals", "regime", "rounds")
 
 MIXED_ERROR = 1e-7
 """Error of a zone from stick_zone with mixed=True, relative to the contact width."""
-
-STILL = 1e-4
-"""An exact zone is permanent if its middle slips by less than this fraction of the work over f P,
-the slip of all points on average.  If it cannot carry the mean shear load, it slips everywhere."""
 
 
 def history(
@@ -203,7 +201,7 @@ def _history(
 
 
 def _cycle(
-    zones: tuple[StickZone, Array],
+    zones: StickZone,
     at: Any,
     body: Body,
     own: Own,
@@ -213,16 +211,14 @@ def _cycle(
     tol: float,
 ) -> SteadyCycle:
     """One steady cycle; its zone is the exact one if that is permanent."""
-    m, n, regime = (v[at] for v in zones[0])
-    found = refine.steady_cycle(body, own, f, loads, np.append(x, (n - m) / 2), tol)
-    sticks = found.slip_range[-1] * f * np.max(loads[0]) <= STILL * found.work
-    confirmed = regime != Regime.MIXED or (sticks and found.regime == Regime.COMPUTED)
-    found = found._replace(slip_range=found.slip_range[:-1], q=found.q[:-1])
-    if math.isnan(m) or not confirmed:
+    m, n, regime = (v[at] for v in zones)
+    found = refine.steady_cycle(body, own, f, loads, x, tol)
+    if math.isnan(m) or (is_limited(regime, loads) and found.regime == Regime.NO_STICK):
         return found
-    found = found._replace(m=m, n=n, regime=regime, error=zones[1][at])
-    in_phase = np.ptp(loads[0]) == np.ptp(loads[1]) == 0
-    if x.size and in_phase and regime in (Regime.MODERATE, Regime.LARGE):
+    error = MIXED_ERROR if regime == Regime.MIXED else 0.0
+    found = found._replace(m=m, n=n, regime=regime, error=error)
+    constant = np.ptp(loads[0]) == np.ptp(loads[1]) == 0
+    if x.size and constant and regime in (Regime.MODERATE, Regime.LARGE):
         found = found._replace(slip_range=_exact_range(body, own, f, loads, x))
     return found
 
@@ -236,24 +232,21 @@ def _exact_range(body: Body, own: Own, f: float, loads: Array, x: Array) -> Arra
     return slip_range(body, own, x, here, here, dQ, dsigma, f, 1.0)
 
 
-def _exact(body: Body, own: tuple[str, ...], numbers: Numbers) -> tuple[StickZone, Array]:
-    """Exact stick zones, NaN for cycles without an exact solution, and their errors.
-
-    The error is relative to the contact width.
-    """
+def _exact(body: Body, own: tuple[str, ...], numbers: Numbers) -> StickZone:
+    """Exact stick zones; NaN for cycles without an exact solution."""
     shape = shape_of(numbers)
     full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
-    P, M, Q, sigma = (full.pop(name) for name in _LOADS)
-    loads, held = (P, M, Q, sigma), {name: full[name] for name in own}
-    states = march(body, held, *loads, full["f"], full["E_star"], mixed=True)
+    loads = np.stack([full[name] / full["E_star"] for name in _LOADS])
+    once = {name: full[name][..., :1] for name in own}
+    with np.errstate(all="ignore"):
+        states, _ = in_phase(body, once, full["f"][..., :1], loads, True)
     code = np.asarray(states.regime[..., 0])
     known = np.all(states.regime == code[..., None], axis=-1)
     m, n = (np.where(known, np.fmin.reduce(v, axis=-1), np.nan) for v in states[2:4])
     rest = np.isnan(m)
     if np.any(rest):
-        given = (v[rest] for v in loads)
-        held = {name: value[rest] for name, value in full.items()}
-        f, E_star = held.pop("f"), held.pop("E_star")
-        m[rest], n[rest], _ = stick_zone_of_loop(body, held, *given, f=f, E_star=E_star)
+        given = {name: full[name][rest] for name in (*_LOADS, "f", "E_star")}
+        held = {name: full[name][rest] for name in own}
+        m[rest], n[rest], _ = stick_zone_of_loop(body, held, **given)
         code = np.where(rest & np.isfinite(m), Regime.MODERATE, code)
-    return StickZone(m, n, code), np.where(code == Regime.MIXED, MIXED_ERROR, 0.0)
+    return StickZone(m, n, code)

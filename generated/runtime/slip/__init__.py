@@ -9,6 +9,4 @@ zone        the regime of a cycle, and its stick zone
 mixed       the stick zone where slip reverses within a half-cycle
 series      slip zones by series in their length
 shear       the change in shear, and the slip range
-locked      the mean shear load that a stick zone can carry
-march       a cycle instant by instant
 """

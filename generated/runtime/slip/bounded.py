@@ -137,15 +137,13 @@ def _sums(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -> 
 
 
 @kernel
-def _first_guess(law: Any, own: Any, of: Any) -> Any:
+def _first_guess(of: Any, ends: Any) -> Any:
     """Slip zones K_T/(f K_N), reduced so that they leave a stick zone between them."""
-    cycle, width = of.cycle, of.a + of.c
-    _, _, _, left_1, right_1 = law.state(cycle.a_1, cycle.c_1, own)
-    _, _, _, left_2, right_2 = law.state(cycle.a_2, cycle.c_2, own)
-    drive_left, drive_right = drives(cycle, width)
-    scale = math.pi * math.sqrt(width) * cycle.f / 2
-    left = max(abs(drive_left) / (scale * (left_1 + left_2)), EPS * width)
-    right = max(abs(drive_right) / (scale * (right_1 + right_2)), EPS * width)
+    width, start, end = of.a + of.c, ends.start, ends.end
+    drive_left, drive_right = drives(of.cycle, width)
+    scale = math.pi * math.sqrt(width) * of.cycle.f / 2
+    left = max(abs(drive_left) / (scale * (start.K_left + end.K_left)), EPS * width)
+    right = max(abs(drive_right) / (scale * (start.K_right + end.K_right)), EPS * width)
     shrink = width / (width + left + right)
     return left * shrink, right * shrink
 
@@ -242,14 +240,14 @@ def _is_clear(law: Any, own: Any, cycle: Any, side: float, start: float) -> bool
 
 
 @kernel
-def zone_between(law: Any, own: Any, of: Any, rtol: float) -> Any:
+def _zone_between(law: Any, own: Any, of: Any, ends: Any, rtol: float) -> Any:
     """m and n between slip in opposite directions.
 
     The regime is LARGE, or UNSOLVED if they are not found, or MIXED if slip has reversed.
     rtol: the change from one rule to the next that is accepted where singularities are close.
     """
     rounding = 16 * EPS * (of.a + of.c)
-    left, right = _first_guess(law, own, of)
+    left, right = _first_guess(of, ends)
     for rule in range(RULES):
         last_left, last_right, reverses = left, right, False
         left, right = _newton(law, own, of, left, right, rule)
@@ -268,15 +266,20 @@ def zone_between(law: Any, own: Any, of: Any, rtol: float) -> Any:
 
 
 @kernel
-def zone_of(law: Any, own: Any, of: Any, ends: Any, rtol: float) -> Any:
-    """m and n while slip grows in given directions, and the regime, as in `zone_between`."""
-    if of.kappa != of.lamda:
-        return zone_between(law, own, of, rtol)
-    load, tilt = (ends.load_1 + ends.load_2) / 2, (ends.tilt_1 + ends.tilt_2) / 2
-    f = of.cycle.f
-    load, tilt = load - of.cycle.dQ / (2 * f), tilt - of.cycle.dsigma / (4 * f)
+def moderate_zone(law: Any, own: Any, cycle: Any, ends: Any) -> Any:
+    """m and n between slip forward at both edges, and the regime; MIXED if nothing sticks."""
+    load = (ends.start.load + ends.end.load - cycle.dQ / cycle.f) / 2
+    tilt = (ends.start.tilt + ends.end.tilt - cycle.dsigma / (2 * cycle.f)) / 2
     m, n = contact_at_tilt(law, own, load, tilt)
     return m, n, Regime.MODERATE if m + n > 0 else Regime.MIXED
+
+
+@kernel
+def zone_of(law: Any, own: Any, of: Any, ends: Any, rtol: float) -> Any:
+    """m and n while slip grows in given directions, and the regime, as in `_zone_between`."""
+    if of.kappa == of.lamda:
+        return moderate_zone(law, own, of.cycle, ends)
+    return _zone_between(law, own, of, ends, rtol)
 
 
 # ---------------------------------------------------------------- the shear in the stick zone

@@ -39,15 +39,21 @@ class Cycle(NamedTuple):
     f: float
 
 
-class Ends(NamedTuple):
-    """The loads and tilts of the contacts at the start and at the end of a half-cycle."""
+class State(NamedTuple):
+    """What carries a contact: load, moment and tilt, and K_N at its edges."""
 
-    load_1: float
-    moment_1: float
-    tilt_1: float
-    load_2: float
-    moment_2: float
-    tilt_2: float
+    load: float
+    moment: float
+    tilt: float
+    K_left: float
+    K_right: float
+
+
+class Ends(NamedTuple):
+    """The states of the contacts at the start and at the end of a half-cycle."""
+
+    start: State
+    end: State
 
 
 @kernel
@@ -59,17 +65,20 @@ def cycle_of(row: Any) -> Cycle:
 
 @kernel
 def ends_of(law: Any, own: Any, cycle: Any) -> Ends:
-    """The loads and tilts of both contacts."""
-    load_1, moment_1, tilt_1, _, _ = law.state(cycle.a_1, cycle.c_1, own)
-    load_2, moment_2, tilt_2, _, _ = law.state(cycle.a_2, cycle.c_2, own)
-    return Ends(load_1, moment_1, tilt_1, load_2, moment_2, tilt_2)
+    """The states of both contacts."""
+    load, moment, tilt, left, right = law.state(cycle.a_1, cycle.c_1, own)
+    start = State(load, moment, tilt, left, right)
+    if is_steady(cycle):
+        return Ends(start, start)
+    load, moment, tilt, left, right = law.state(cycle.a_2, cycle.c_2, own)
+    return Ends(start, State(load, moment, tilt, left, right))
 
 
 @kernel
 def exists(cycle: Any, ends: Any) -> bool:
     """Whether both contacts exist and the changes in the loads and the friction are valid."""
     return (
-        math.isfinite(ends.load_1 + ends.tilt_1 + ends.load_2 + ends.tilt_2)
+        math.isfinite(ends.start.load + ends.start.tilt + ends.end.load + ends.end.tilt)
         and cycle.f > 0
         and 0 <= cycle.dQ < math.inf
         and math.isfinite(cycle.dsigma)
@@ -79,7 +88,7 @@ def exists(cycle: Any, ends: Any) -> bool:
 @kernel
 def slides(cycle: Any, ends: Any) -> bool:
     """Whether nothing sticks."""
-    return not cycle.dQ < cycle.f * (ends.load_1 + ends.load_2)
+    return not cycle.dQ < cycle.f * (ends.start.load + ends.end.load)
 
 
 @kernel
@@ -89,8 +98,8 @@ def resolved(cycle: Any, ends: Any) -> bool:
     They do not if a flank makes up nearly all of the contact while a corner carries the load.  At a
     given load the last digit of the tilt moves an edge by about EPS tilt h**2/(2 P).
     """
-    shift_1 = EPS * abs(ends.tilt_1) * (cycle.a_1 + cycle.c_1) / ends.load_1
-    shift_2 = EPS * abs(ends.tilt_2) * (cycle.a_2 + cycle.c_2) / ends.load_2
+    shift_1 = EPS * abs(ends.start.tilt) * (cycle.a_1 + cycle.c_1) / ends.start.load
+    shift_2 = EPS * abs(ends.end.tilt) * (cycle.a_2 + cycle.c_2) / ends.end.load
     return max(shift_1, shift_2) <= MAX_EDGE_ROUNDING
 
 
@@ -116,7 +125,7 @@ def turning_width(dQ: float, dsigma: float) -> float:
 @kernel
 def advances(ends: Any, a: float, c: float) -> Any:
     """The rates at which the loads advance the left and the right edge of the contact [-a, c]."""
-    more, turn = ends.load_2 - ends.load_1, ends.moment_2 - ends.moment_1
+    more, turn = ends.end.load - ends.start.load, ends.end.moment - ends.start.moment
     by_turning = 4 * (turn + (c - a) / 2 * more) / (a + c)
     return more + by_turning, more - by_turning
 
@@ -124,9 +133,9 @@ def advances(ends: Any, a: float, c: float) -> Any:
 @kernel
 def on_the_way(law: Any, own: Any, ends: Any, part: float) -> Any:
     """a, c and tilt of the contact after a part of the way from the start to the end."""
-    load = ends.load_1 + part * (ends.load_2 - ends.load_1)
-    moment = ends.moment_1 + part * (ends.moment_2 - ends.moment_1)
-    return contact(law, own, load, moment)
+    first, last = ends.start, ends.end
+    load = first.load + part * (last.load - first.load)
+    return contact(law, own, load, first.moment + part * (last.moment - first.moment))
 
 
 @kernel

@@ -22,7 +22,7 @@ from typing import Any
 from ..kernels import kernel
 from ..types import Regime
 from .bounded import ROUGH_RTOL, change_between, slipping, zone_of
-from .cycles import Cycle, Ends, advances, drives, is_steady, on_the_way
+from .cycles import Cycle, advances, drives, ends_of, on_the_way
 from .quadrature import ROUGH, slip_zone
 
 PARTS = 8
@@ -50,8 +50,6 @@ def sticks_all_over(law: Any, own: Any, cycle: Any, ends: Any) -> bool:
     """
     if cycle.dQ == 0 and cycle.dsigma == 0:
         return True
-    if is_steady(cycle):
-        return False
     first_left, first_right = advances(ends, cycle.a_1, cycle.c_1)
     for k in range(PARTS + 1):
         a, c = cycle.a_1, cycle.c_1
@@ -164,19 +162,13 @@ def _within_friction(law: Any, own: Any, of: Any, m: float, n: float, zone: Any)
 
 
 @kernel
-def _up_to(law: Any, own: Any, cycle: Any, ends: Any, sense: float, part: float) -> Any:
-    """A part of a half-cycle from its start (sense = 1) or, backward, from its end, with the loads
-    and tilts of its contacts."""
-    way = part if sense > 0 else 1 - part
-    a, c, tilt = on_the_way(law, own, ends, way)
-    load = ends.load_1 + way * (ends.load_2 - ends.load_1)
-    moment = ends.moment_1 + way * (ends.moment_2 - ends.moment_1)
+def _up_to(law: Any, own: Any, cycle: Any, ends: Any, sense: float, part: float) -> Cycle:
+    """A part of a half-cycle from its start (sense = 1) or, backward, from its end."""
+    a, c, _ = on_the_way(law, own, ends, part if sense > 0 else 1 - part)
     dQ, dsigma = part * cycle.dQ, part * cycle.dsigma
     if sense > 0:
-        now = Cycle(cycle.a_1, cycle.c_1, a, c, dQ, dsigma, cycle.f)
-        return now, Ends(ends.load_1, ends.moment_1, ends.tilt_1, load, moment, tilt)
-    now = Cycle(cycle.a_2, cycle.c_2, a, c, dQ, dsigma, cycle.f)
-    return now, Ends(ends.load_2, ends.moment_2, ends.tilt_2, load, moment, tilt)
+        return Cycle(cycle.a_1, cycle.c_1, a, c, dQ, dsigma, cycle.f)
+    return Cycle(cycle.a_2, cycle.c_2, a, c, dQ, dsigma, cycle.f)
 
 
 @kernel
@@ -190,10 +182,10 @@ def grown(law: Any, own: Any, of: Any, ends: Any, m: float, n: float, regime: An
     for sense in (1.0, -1.0):
         last_m = last_n = math.inf
         for k in range(1, PARTS + 1):
-            now, now_ends = _up_to(law, own, of.cycle, ends, sense, k / PARTS)
+            now = _up_to(law, own, of.cycle, ends, sense, k / PARTS)
             now_of, now_m, now_n = slipping(now, of.kappa, of.lamda), m, n
             if k < PARTS:
-                now_m, now_n, found = zone_of(law, own, now_of, now_ends, ROUGH_RTOL)
+                now_m, now_n, found = zone_of(law, own, now_of, ends_of(law, own, now), ROUGH_RTOL)
                 if found == Regime.UNSOLVED:
                     return found
             if not (

@@ -66,55 +66,34 @@ def _beside_corner(law: Any, own: Any, x: float, m: float, n: float) -> float:
 
 
 @kernel
-def _share_a_cycle(given: Any, own: Any, i: int) -> bool:
-    """Whether a row differs from the one before only in its place, column 9."""
-    for k in range(given.shape[1]):
-        if k != 9 and given[i, k] != given[i - 1, k]:
-            return False
-    return bool(np.all(own[i] == own[i - 1]))
-
-
-@kernel
-def _changes(law: Any, own: Any, rows: Any, out: Any) -> None:
-    """dq at the places of rows that share a cycle and its stick zone; zero outside both contacts,
-    NaN where the stick zone is not known."""
-    cycle, m, n, regime = cycle_of(rows[0]), rows[0, 6], rows[0, 7], rows[0, 8]
-    of, f, E_star = slipping_in(cycle, regime), cycle.f, rows[0, 11]
-    sticks = regime == Regime.FULL_STICK.value and is_steady(cycle)
-    known = m + n < math.inf and regime in (
-        Regime.MODERATE.value,
-        Regime.LARGE.value,
-        Regime.MIXED.value,
-    )
-    between = known and of.kappa != of.lamda
-    if between:
-        left = slip_zone(law, own, cycle, -1.0, of.a - m, math.nan, FINEST)
-        right = slip_zone(law, own, cycle, 1.0, of.c - n, math.nan, FINEST)
-    for i in range(rows.shape[0]):
-        x = rows[i, 9]
-        if sticks and not math.isnan(x):
-            dq = 0.0
-        elif math.isnan(x) or not known:
-            dq = math.nan
-        elif x <= -m or x >= n:
-            kappa = of.kappa if x < (n - m) / 2 else of.lamda
-            dq = kappa * f * pressures(law, own, cycle, x)
-        elif between:
-            dq = change_between(of, left, right, m, n, x)
-        else:
-            x = _beside_corner(law, own, x, m, n)
-            dq = f * (pressures(law, own, cycle, x) - 2 * law.pressure(x, m, n, own))
-        out[i, 0] = E_star * dq
+def _change(law: Any, own: Any, row: Any) -> float:
+    """dq at a place; zero outside both contacts, NaN where the stick zone is not known."""
+    cycle, m, n, regime, x = cycle_of(row), row[6], row[7], row[8], row[9]
+    of = slipping_in(cycle, regime)
+    if math.isnan(x):
+        return math.nan
+    if regime == Regime.FULL_STICK.value and is_steady(cycle):
+        return 0.0
+    known = regime in (Regime.MODERATE.value, Regime.LARGE.value, Regime.MIXED.value)
+    if not (known and m + n < math.inf):
+        return math.nan
+    if x <= -m or x >= n:
+        kappa = of.kappa if x < (n - m) / 2 else of.lamda
+        return kappa * cycle.f * pressures(law, own, cycle, x)
+    if of.kappa == of.lamda:
+        x = _beside_corner(law, own, x, m, n)
+        return cycle.f * (pressures(law, own, cycle, x) - 2 * law.pressure(x, m, n, own))
+    left = slip_zone(law, own, cycle, -1.0, of.a - m, math.nan, FINEST)
+    right = slip_zone(law, own, cycle, 1.0, of.c - n, math.nan, FINEST)
+    return change_between(of, left, right, m, n, x)
 
 
 @loop
 def each_shear_change(law: Any, given: Any, own: Any, out: Any) -> None:
     """a_1, c_1, a_2, c_2, dQ, dsigma, m, n, regime, x, f, E* -> dq."""
-    law, start, rows = opened(law), 0, given.shape[0]
-    for i in range(1, rows + 1):
-        if i == rows or not _share_a_cycle(given, own, i):
-            _changes(law, own[start], given[start:i], out[start:i])
-            start = i
+    law = opened(law)
+    for i in range(given.shape[0]):
+        out[i, 0] = given[i, 11] * _change(law, own[i], given[i])
 
 
 # ---------------------------------------------------------------- the shear traction itself

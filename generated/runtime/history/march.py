@@ -12,20 +12,30 @@ does not return to its first state, |Q| >= f P, and a shear load that the stick 
 The last instant leads straight back to the first.  If this last step is nearly the whole way from
 one state to the other, the history is taken for a first loading and not for a cycle.
 
+Under moderate tension a stick zone carries every |Q| < f P.  The shear traction there grows, and
+f p_1 + dq = f p_2 + 2 f (p_1 - p_s) is above f p_2, p_s being the pressure of the contact [-m, n],
+which is below p_1.  The same holds if nothing slips as both edges advance, because |dq| <= f dp
+everywhere.  It does not hold under large tension, where the slip zones slip in opposite directions
+and carry little, nor where the moment rocks the contact while Q and sigma are constant.  A steady
+cycle on elements tells whether such a zone carries Q.  If it cannot, every point slips in every
+cycle, and the bodies ratchet along each other although |Q| < f P.
+
 All loads are divided by E*.  Time lies along the last axis, which constants keep with length one.
 """
 
-from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import solved
+from ..arrays import numbers_of, shape_of, solved
 from ..body import Body
+from ..chunks import any_lazy, over_chunks
+from ..cycle import Own, stick_zones
 from ..forward import UNIT, each_contact
-from ..types import Array, Contact, Edges, March, Regime, StickZone
-from .locked import carries
-from .zone import each_zone_of_regime
+from ..slip.zone import each_zone_of_regime
+from ..types import Array, Contact, Edges, March, Regime, Values
+from .refine import steady_cycle
 
 MAX_LAST_STEP = 0.99
 """Largest step from the last instant back to the first, as a part of the way between the states."""
@@ -35,6 +45,9 @@ PHASE_RTOL = 1e-6
 
 LOAD_RTOL = 1e-12
 """Loads whose relative change is below this are constant."""
+
+ROUGH_TOL = 1e-2
+"""Tolerance of the steady cycle that tells whether a zone can carry the shear load."""
 
 
 class _Way(NamedTuple):
@@ -55,48 +68,95 @@ class _Way(NamedTuple):
     returns: Array
 
 
-def marched(
+def march(
     body: Body,
-    own: dict[str, Any],
-    f: Array,
-    loads: list[Array],
-    solve: Callable[..., StickZone],
+    own: Own,
+    P: Values,
+    M: Values,
+    Q: Values,
+    sigma: Values,
+    f: Values,
+    E_star: Values,
 ) -> March:
-    """Steady cycles instant by instant, for E* = 1.
+    """A steady cycle instant by instant."""
+    numbers = numbers_of(
+        {"P": P, "M": M, "Q": Q, "sigma": sigma}, {"f": f, "E_star": E_star, **own}
+    )
+    shape = shape_of(numbers)
+    if any_lazy(numbers.values()):
+        axes = dict.fromkeys(March._fields, "t")
+        lazy: March = over_chunks(partial(march, body), "march", numbers, (own,), axes)
+        return lazy
+    if not shape or shape[-1] < 2:
+        raise ValueError(
+            f"a cycle needs at least two instants along the last axis; got shape {shape}"
+        )
+    held = {name: _held(numbers[name], shape) for name in ("f", *own)}
+    friction = held.pop("f")
+    with np.errstate(all="ignore"):
+        loads = [numbers[name] / numbers["E_star"] for name in ("P", "M", "Q", "sigma")]
+        every = np.stack([np.broadcast_to(v, shape) for v in loads])
+        states, cycles = in_phase(body, held, friction, every, False)
+        limited = np.isin(states.regime[..., 0], (Regime.LARGE, Regime.FULL_STICK))
+        for case in map(tuple, np.argwhere(limited)):
+            regime, cycle = states.regime[case][0], cycles[:, *case]
+            if is_limited(regime, cycle):
+                here = {name: v[case][0] for name, v in held.items()}
+                found = steady_cycle(body, here, friction[case][0], cycle, np.zeros(0), ROUGH_TOL)
+                if found.regime == Regime.NO_STICK:
+                    _ratchets(states, case)
+        return states
 
-    f and own may have one instant instead of all
-    loads: P, M, Q and sigma, of equal shapes
-    solve: solves for stick zones; takes a body, a half-cycle, constants and parameters, by name
+
+def _ratchets(states: Any, case: tuple[int, ...]) -> None:
+    """Enter that a cycle has no stick zone."""
+    states.m[case] = states.n[case] = np.nan
+    states.left[case] = states.right[case] = 0
+    states.regime[case] = Regime.NO_STICK
+
+
+def _held(value: Any, shape: tuple[int, ...]) -> Any:
+    """The values of a constant, one per cycle, along an axis of length one.
+
+    Raises ValueError if the constant changes with time.
     """
-    P, M, Q, sigma = loads
-    contact = solved(each_contact, body, {"P": P, "M": M}, UNIT, own, Contact)
-    every, roundings = np.stack(loads), _roundings(contact, f, P, M, Q, sigma)
-    way = _way(every, roundings)
-    ends = [at(way.progress, axis=-1)[..., None] for at in (np.argmin, np.argmax)]
-    low, high = (_at(every, end) for end in ends)
-    whole = _half_cycle(contact, (ends[0], ends[1]), high - low, roundings)
+    held = np.broadcast_to(value, shape)
+    if np.any((held != held[..., :1]) & ~np.isnan(held)):
+        raise ValueError(
+            "f, E_star and the body's parameters must not change along the last axis, which is time"
+        )
+    return held[..., :1]
+
+
+def in_phase(body: Body, own: Own, f: Array, loads: Array, mixed: bool) -> tuple[Any, Array]:
+    """The states at all instants, and the loads of a cycle between their extremes, for E* = 1.
+
+    f and own have one instant.
+    loads: P, M, Q and sigma
+    mixed: whether to solve mixed cycles, too
+    """
+    contact = solved(each_contact, body, {"P": loads[0], "M": loads[1]}, UNIT, own, Contact)
+    roundings = _roundings(contact, f, *loads)
+    way = _way(loads, roundings)
+    low, high = (at(way.progress, axis=-1)[..., None] for at in (np.argmin, np.argmax))
+    cycle = np.concatenate([_at(loads, end) for end in (low, high, low)], axis=-1)
+    whole = _half_cycle(contact, (low, high), cycle[..., 1:2] - cycle[..., :1], roundings)
     constants = {"f": f, **UNIT}
-    m, n, code = solve(body, whole, constants, own)
-    refused, refusal = _refusal(way, every, contact, f)
+    m, n, code = stick_zones(body, whole, constants, own, mixed)
+    refused, refusal = _refusal(way, loads, contact, f)
     regime: Array = np.where(refused, refusal, code)
-    limited = np.isin(regime[..., 0], (Regime.LARGE, Regime.FULL_STICK))
-    for case in map(tuple, np.argwhere(limited)):
-        parameters = {name: value[case][0] for name, value in own.items()}
-        first, last = (load[(slice(None), *case, 0)] for load in (low, high))
-        if not carries(body, parameters, f[case][0], first, last, regime[case][0]):
-            m[case], regime[case] = np.nan, Regime.NO_STICK
 
     # part of the whole half-cycle up to each instant; of a mixed one only the ends are known
     sense = np.where(_at(way.progress, way.start) == 0, 1, -1)
-    rise = sense * (every - _at(every, way.start))
-    now = np.broadcast_to(np.arange(P.shape[-1]), P.shape)
+    rise, shape = sense * (loads - _at(loads, way.start)), way.progress.shape
+    now = np.broadcast_to(np.arange(shape[-1]), shape)
     part = _half_cycle(contact, (way.start, now), rise, roundings)
     part["regime"] = regime
-    mixed = (regime == Regime.MIXED) & (way.progress == (1 + sense) / 2)
-    asked = np.broadcast_to(~np.isnan(m) & ~refused & (regime != Regime.MIXED), P.shape)
-    zone = np.where(mixed, [m, n], np.nan)
+    ends = (regime == Regime.MIXED) & (way.progress == (1 + sense) / 2)
+    asked = np.broadcast_to(~np.isnan(m) & ~refused & (regime != Regime.MIXED), shape)
+    zone = np.where(ends, [m, n], np.nan)
     given, constants, own = (
-        {name: np.broadcast_to(value, P.shape)[asked] for name, value in values.items()}
+        {name: np.broadcast_to(value, shape)[asked] for name, value in values.items()}
         for values in (part, constants, own)
     )
     zone[:, asked] = solved(each_zone_of_regime, body, given, constants, own, Edges)
@@ -109,7 +169,20 @@ def marched(
     left = np.where(slips, np.where(large & backward, -sense, sense), 0)
     m, n = np.where(exists, zone, np.nan)
     regime = np.where(asked & ~exists, Regime.UNSOLVED, regime)
-    return March(contact.a, contact.c, m, n, left, np.where(large, -left, left), regime)
+    states = March(contact.a, contact.c, m, n, left, np.where(large, -left, left), regime)
+    return states, cycle
+
+
+# ---------------------------------------------------------------- the mean shear load
+
+
+def is_limited(regime: int, loads: Array) -> bool:
+    """Whether the shear load that the stick zone of a cycle carries has a limit below f P."""
+    rocks = regime == Regime.FULL_STICK and np.ptp(loads[2]) == np.ptp(loads[3]) == 0
+    return rocks or regime in (Regime.LARGE, Regime.MIXED)
+
+
+# ---------------------------------------------------------------- how the loads move
 
 
 def _at(values: Array, instants: Array) -> Array:
