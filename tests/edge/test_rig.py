@@ -111,7 +111,7 @@ ONE = Edge(1.0, 0.1)
 @pytest.mark.parametrize(
     ("edge", "regime", "words"),
     [
-        (Edge(1.0, 3.0), Regime.SLIDING, "is not below f (P_1 + P_2) = 3.14159 N/m"),
+        (Edge(1.0, 3.0), Regime.SLIDING, "dQ reaches f (P_1 + P_2): the contact slides"),
         (Edge(1.0, 0.5), Regime.MODERATE, "large part"),
         (Edge(1.0, 0.1), Regime.MODERATE, ""),
         (Edge(1.0, 0.01, da=0.1), Regime.FULL_STICK, "nothing slips"),

@@ -8,8 +8,8 @@ the other edge.  average.py fits both.
 A mesh does not end where the contact does.  The edge lies between the first node in contact and the
 one before.  A bonded mesh has its edge within half an element of the true one, which adds
 K_T shift/(2 s) to the polynomial.  Each is one more unknown, known in advance to be zero with a
-standard deviation of EDGE elements.  The first node is left out, and the error of the next ones is
-that of the mesh times (element/s)**2.5.
+standard deviation of EDGE_SPREAD elements.  The first node is left out, and the error of the next
+ones is that of the mesh times (element/s)**2.5.
 """
 
 import math
@@ -22,10 +22,10 @@ from ..arrays import real
 from ..types import Edges, Values
 from .average import averaged, nothing
 
-EDGE = 0.35
+EDGE_SPREAD = 0.35
 """Standard deviation of the edge of a mesh from that of the contact, in elements."""
 
-PRESSURE_MESH, SHEAR_MESH = 0.06, 0.5
+PRESSURE_MESH_ERROR, SHEAR_MESH_ERROR = 0.06, 0.5
 """Relative error of a traction one element from the edge, on a mesh of equal elements.  That of the
 pressure was measured as 6 % at 1, 0.6 % at 2 and 0.1 % at 5 elements; that of bonded shear as 16 %
 at 1.5, 2 % at 3 and 0.7 % at 4 elements."""
@@ -162,10 +162,10 @@ def fit_pressure(x: Values, p: Values) -> PressureFit:
         s,
         y**2,
         rate=2 * y,
-        mesh=PRESSURE_MESH * y * (element / s) ** 2.5,
+        mesh=PRESSURE_MESH_ERROR * y * (element / s) ** 2.5,
         half=max(int(np.argmax(y)) + 1, len(y) // 2),
         columns=np.vander(s / s[-1], 6, increasing=True),
-        spread=EDGE * element * y[0] ** 2 / s[0],
+        spread=EDGE_SPREAD * element * y[0] ** 2 / s[0],
         read=lambda b: _at_root(b, s[-1], 1.5 * element),
     )
     edge = float(middle + inward * found.edge)
@@ -244,14 +244,14 @@ def fit_stuck_shear(x: Values, dq: Values, edge: float, edge_error: float = 0.0)
         s,
         y,
         rate=np.ones(len(s)),
-        mesh=SHEAR_MESH * level * (element / s) ** 2.5,
+        mesh=SHEAR_MESH_ERROR * level * (element / s) ** 2.5,
         half=len(s) // 2,
         columns=np.column_stack([element / s / 2, np.vander(s / s[-1], 4, increasing=True)]),
-        spread=level * math.hypot(EDGE, edge_error / element),
+        spread=level * math.hypot(EDGE_SPREAD, edge_error / element),
         read=lambda b: np.stack([b[1], b[2] / s[-1] if len(b) > 2 else 0 * b[1]]),
     )
     # a mesh bonded over another width carries the same load with another K_T
-    width_error = EDGE * element / width / math.sqrt(2) * abs(found.K_T)
+    width_error = EDGE_SPREAD * element / width / math.sqrt(2) * abs(found.K_T)
     return found._replace(
         L_T=float(found.L_T + found.K_T / (2 * width)),
         K_T_error=math.hypot(found.K_T_error, width_error),

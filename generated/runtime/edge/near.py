@@ -28,6 +28,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arrays import evaluated
+from ..cycle import demand_order
 from ..types import Array, Values
 
 
@@ -126,13 +127,11 @@ def slip_zone(
     """
     order = _known_order(order, L_N, L_T)
 
-    def zones(K_N: Any, L_N: Any, K_T: Any, L_T: Any, da: Any, f: Any, h: Any = np.inf) -> Any:
-        first = HalfCycle(K_N, 0.0, K_T, 0.0, da, f).zone()
-        second = HalfCycle(K_N, L_N, K_T, L_T, da, f, h).zone()
+    def zones(*half_cycle: Any) -> Any:
+        first, second = (HalfCycle(*half_cycle).to_order(n).zone() for n in (1, 2))
         return (first, second)[order - 1], np.abs(second - first)
 
-    given = {"K_N": K_N, "L_N": np.nan if L_N is None else L_N}
-    given |= {"K_T": K_T, "L_T": np.nan if L_T is None else L_T, "da": da}
+    given = _coefficients(K_N, L_N, K_T, L_T, unknown=np.nan) | {"da": da}
     return evaluated(zones, given, {"f": f} if h is None else {"f": f, "h": h}, SlipZone)
 
 
@@ -174,8 +173,7 @@ def reach(
         return np.minimum(np.minimum(np.abs(K_N / L_N), np.abs(K_T / L_T)), h)
 
     unknown = np.nan if L_N is None and L_T is None and h is None else 0.0
-    given = {"K_N": K_N, "L_N": unknown if L_N is None else L_N}
-    given |= {"K_T": K_T, "L_T": 0.0 if L_T is None else L_T}
+    given = _coefficients(K_N, L_N, K_T, L_T, unknown)
     return evaluated(least, given, {} if h is None else {"h": h})
 
 
@@ -232,24 +230,25 @@ def tractions(
     >>> f"{q / p:.3g} and {dq / p:.3g}"  # slips: f and 2 f
     '0.5 and 1'
     """
-
     if not isinstance(back, bool | np.bool_):
         raise TypeError(f"back must be True or False, one value for all; got {back!r:.60}")
+    order = _known_order(order, L_N, L_T)
 
     def evaluate(s: Any, share: Any, mean: Any, *half_cycle: Any) -> Any:
-        rising = HalfCycle(*half_cycle)
+        rising = HalfCycle(*half_cycle).to_order(order)
         share = np.where((share >= 0) & (share <= 1), share, np.nan)
-        half = (rising.reversed() if back else rising).part(share)
-        here = s - (share if back else 1 - share) * rising.da  # from the edge at this instant
-        p, dq, d = half.pressure(0.0, here), half.change(here), half.zone()
-        still = rising.scaled(np.where(rising.da == 0, 1.0, np.nan))
+        start, end = (1.0, 1 - share) if back else (0.0, share)
+        half = rising.part(start, end)
+        here = s - (1 - end) * rising.da  # from the edge at this instant
+        p, dq, d = half.pressure(here), half.change(here), half.zone()
+        still = rising.part(0.0, np.where(rising.da == 0, 1.0, np.nan))
         whole = still.change(s)
-        first = still.scaled(2 * np.abs(mean / rising.K_T) + 1).change(s) / 2
+        first = still.part(0.0, 2 * np.abs(mean / rising.K_T) + 1).change(s) / 2
         lowest = np.where(mean / rising.K_T >= 0, first - whole, -first)
         q = np.where(back, lowest + whole, lowest) + dq
         return p + 0 * d, np.where(here <= d, half.sense * rising.f * p, q), dq  # NaN if d is
 
-    given = {"s": s, "share": share, "mean": mean} | _coefficients(order, K_N, L_N, K_T, L_T)
+    given = {"s": s, "share": share, "mean": mean} | _coefficients(K_N, L_N, K_T, L_T)
     return evaluated(evaluate, given | {"da": da}, {"f": f}, Tractions)
 
 
@@ -292,16 +291,17 @@ def slip_range(
     >>> f"{slip_range(0.0, 1e10, 1e6, f=0.5, E_star=1e11):.3g}"
     '3.77e-07'
     """
+    order = _known_order(order, L_N, L_T)
 
     def evaluate(s: Any, *values: Any) -> Any:
         *half_cycle, E_star = values
-        half = HalfCycle(*half_cycle)
+        half = HalfCycle(*half_cycle).to_order(order)
         R_0, R_1 = half.stuck()
         u = np.maximum(half.zone() - s, 0.0)
         slip = R_0 * u**1.5 / 1.5 - R_1 * u**2.5 / 2.5
         return np.where(s >= np.maximum(half.da, 0.0), 2 / E_star * slip, np.nan)
 
-    given = {"s": s} | _coefficients(order, K_N, L_N, K_T, L_T) | {"da": da}
+    given = {"s": s} | _coefficients(K_N, L_N, K_T, L_T) | {"da": da}
     return evaluated(evaluate, given, {"f": f, "E_star": E_star})
 
 
@@ -312,20 +312,15 @@ def _known_order(order: Any, L_N: Any, L_T: Any) -> int:
     """
     most = 1 if L_N is None or L_T is None else 2
     order = most if order is None else order
-    if isinstance(order, bool) or not isinstance(order, int | np.integer):
-        raise TypeError(f"order must be a whole number; got {order!r:.60}")
-    if not 1 <= order <= most:
-        raise ValueError(
-            f"order must be {'1' if most == 1 else '1 or 2'} with the coefficients given; got "
-            f"{order}: order 2 needs L_N and L_T, and there is no higher order"
-        )
+    demand_order(order)
+    if order > most:
+        raise ValueError("order 2 needs L_N and L_T: give both, or leave the order out")
     return int(order)
 
 
-def _coefficients(order: Any, K_N: Any, L_N: Any, K_T: Any, L_T: Any) -> dict[str, Any]:
-    """The coefficients in the order of HalfCycle; those beyond the order are zero."""
-    if _known_order(order, L_N, L_T) == 1:
-        L_N = L_T = 0.0
+def _coefficients(K_N: Any, L_N: Any, K_T: Any, L_T: Any, unknown: float = 0.0) -> dict[str, Any]:
+    """The coefficients in the order of HalfCycle, with a number in place of unknown ones."""
+    L_N, L_T = (unknown if value is None else value for value in (L_N, L_T))
     return {"K_N": K_N, "L_N": L_N, "K_T": K_T, "L_T": L_T}
 
 
@@ -348,53 +343,45 @@ class HalfCycle(NamedTuple):
         """The direction of slip, +1 or -1."""
         return np.where(self.K_T < 0, -1.0, 1.0)
 
-    def coefficients(self, lag: Any) -> tuple[Any, Any]:
-        """K_N and L_N when the edge was further in by `lag`."""
-        return self.K_N + 1.5 * self.L_N * lag, self.L_N
+    def to_order(self, order: int) -> "HalfCycle":
+        """The half-cycle with the terms of this order."""
+        return self if order == 2 else self._replace(L_N=0.0, L_T=0.0, h=np.inf)
 
-    def pressure(self, lag: Any, s: Any) -> Any:
-        """The pressure at that instant; s is the distance from the edge then."""
-        K_N, L_N = self.coefficients(lag)
-        inside = np.maximum(s, 0.0)
-        return np.sqrt(inside) * (K_N + L_N * inside)
+    def part(self, start: Any, end: Any) -> "HalfCycle":
+        """From one instant to another one, counted from 0 to 1; all loads change linearly."""
+        lag, share = (1 - end) * self.da, end - start
+        K_T, L_T = share * (self.K_T + self.L_T / 2 * lag), share * self.L_T
+        return self._replace(K_N=self.K_N_at(lag), K_T=K_T, L_T=L_T, da=share * self.da)
+
+    def K_N_at(self, lag: Any) -> Any:
+        """K_N when the edge was further in by `lag`; L_N does not change."""
+        return self.K_N + 1.5 * self.L_N * lag
+
+    def pressure(self, s: Any, lag: Any = 0.0) -> Any:
+        """The pressure at that instant."""
+        inside = np.maximum(s - lag, 0.0)
+        return np.sqrt(inside) * (self.K_N_at(lag) + self.L_N * inside)
 
     def zone(self) -> Any:
         """The slip zone: the root of A d**2 + B d = C beyond which friction suffices."""
-        A, B, C = 0.0, -self.sense * self.L_T / 2, np.abs(self.K_T)
-        shortest, slips = np.maximum(self.da, 0.0), True
-        for lag in (0.0, self.da):
-            K_N, L_N = self.coefficients(lag)
-            linear, square = self.f * K_N / 2, self.f * (3 / 8 * L_N - K_N / (16 * self.h))
-            A, B = A + square, B + linear - 2 * square * lag
-            C = C + linear * lag - square * lag**2
-            slips = slips & (K_N > 0)
+        before, shortest = self.K_N_at(self.da), np.maximum(self.da, 0.0)
+        own, other = (self.f * K_N / (16 * self.h) for K_N in (self.K_N, before))
+        A = 0.75 * self.f * self.L_N - own - other
+        B = self.f * self.K_N - self.sense * self.L_T / 2 + 2 * other * self.da
+        moved = self.f * (self.K_N / 2 + 3 / 8 * self.L_N * self.da) + other * self.da
+        C = np.abs(self.K_T) + moved * self.da
         d = 2 * C / (B + np.sqrt(B**2 + 4 * A * C))
-        return np.where(slips & (d >= shortest) & (B + 2 * A * shortest > 0), d, np.nan)
-
-    def part(self, share: Any) -> "HalfCycle":
-        """The first part of the half-cycle."""
-        lag = (1 - share) * self.da
-        K_T, L_T = share * (self.K_T + self.L_T / 2 * lag), share * self.L_T
-        return HalfCycle(*self.coefficients(lag), K_T, L_T, share * self.da, self.f)
-
-    def reversed(self) -> "HalfCycle":
-        """The half-cycle that follows."""
-        K_T = self.K_T + self.L_T / 2 * self.da
-        return HalfCycle(*self.coefficients(self.da), -K_T, -self.L_T, -self.da, self.f)
-
-    def scaled(self, factor: Any) -> "HalfCycle":
-        """The half-cycle under `factor` times the change in shear."""
-        return self._replace(K_T=factor * self.K_T, L_T=factor * self.L_T)
+        slips = (self.K_N > 0) & (before > 0) & (d >= shortest) & (B + 2 * A * shortest > 0)
+        return np.where(slips, d, np.nan)
 
     def stuck(self) -> tuple[Any, Any]:
         """R_0 and R_1."""
-        (K_N, L_N), d = self.coefficients(self.da), self.zone()
-        R_0 = self.K_N + 1.5 * self.L_N * d + K_N + 1.5 * L_N * (d - self.da)
-        return self.f * R_0 - self.sense * self.L_T, self.f * (self.L_N + L_N)
+        R_0 = 2 * self.f * (self.K_N + 1.5 * self.L_N * self.zone())
+        return R_0 - self.sense * self.L_T, 2 * self.f * self.L_N
 
     def change(self, s: Any) -> Any:
         """The change in the shear traction at its end."""
         R_0, R_1 = self.stuck()
         t = np.maximum(s - self.zone(), 0.0)
-        p = self.pressure(0.0, s) + self.pressure(self.da, s - self.da)
+        p = self.pressure(s) + self.pressure(s, self.da)
         return self.sense * (self.f * p - np.sqrt(t) * (R_0 + R_1 * t))

@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..reasons import MEANINGS
 from ..types import Contact, Edges, Regime
 from .contact import MATCH_RTOL, contact_of, start_of
 from .near import slip_zone
@@ -177,16 +178,10 @@ def match(
         dQ, dsigma = -dQ, 0.0 - dsigma
     zone = module.stick_zone(first, second, dQ, dsigma, f=f, E_star=E_star, **law)
     d, regime = Edges(float(a - zone.m), float(c - zone.n)), int(zone.regime)
-    warning = {
-        Regime.MODERATE: "",
-        Regime.LARGE: "",
-        Regime.MIXED: "slip reverses within a half-cycle, or an edge sticks: the slip zone is not "
-        "exact",
-        Regime.SLIDING: f"the contact of the rig slides: dQ = {dQ:.6g} N/m is not below "
-        f"f (P_1 + P_2) = {f * (P + P_1):.6g} N/m",
-        Regime.FULL_STICK: "nothing slips",
-    }.get(Regime(regime), "no stick zone was found")
-    if not warning and max(getattr(d, side) for side in requested) > MAX_SLIP * (a + c):
+    warning = ""
+    if regime not in (Regime.MODERATE, Regime.LARGE):
+        warning = MEANINGS.get(Regime(regime), "no stick zone was found")
+    elif max(getattr(d, side) for side in requested) > MAX_SLIP * (a + c):
         warning = "the slip zone is a large part of the contact: the other edge affects it"
     return Rig(
         *(P, M, dQ, dsigma, P - P_1, M - M_1, law, first, second, edges, d, regime),

@@ -29,9 +29,6 @@ ROUNDING = 1e-11
 """Values below this fraction of the largest count as zero, and loads that differ by less than this
 fraction of f P as equal."""
 
-MAX_EXCHANGES = 30
-"""Iterations in which all elements may change their status at once."""
-
 
 class Solver:
     """Solves load steps on a mesh.
@@ -52,7 +49,8 @@ class Solver:
         A, K, w = self.mesh.influence, self.mesh.stiffness, self.mesh.widths
         apart, most = bound == 0, bound + ROUNDING * bound.max()
         status = np.where(apart, 0.0, status)
-        for iteration in range(MAX_EXCHANGES + 10 * w.size):
+        all_at_once = 30
+        for iteration in range(all_at_once + 10 * w.size):
             slips, limit = apart | (status != 0), status * bound
             sticks = ~slips
             chosen = sticks.nonzero()[0]
@@ -80,7 +78,7 @@ class Solver:
             wrong = (released | beyond).nonzero()[0]
             if wrong.size == 0:
                 return q, v, status
-            if iteration >= MAX_EXCHANGES:
+            if iteration >= all_at_once:
                 wrong = wrong[:1]
             status[wrong] = np.where(beyond, np.sign(q), 0.0)[wrong]
         return None

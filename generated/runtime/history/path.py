@@ -1,11 +1,11 @@
 """The loads and contacts of a history step by step; between two instants all loads vary linearly.
 
 Steps are so short that no edge moves farther than `reach` times the widest contact, and that Q and
-sigma change accordingly (SHEAR).  A step ends where |Q| reaches f P or falls below it.  Where the
-contact becomes four times as wide, or a quarter as wide, between two instants, steps are shorter
-next to the narrower contact.  The contact before a loss of contact is small.  So is the first one
-after it, or it is that of a flat body under a small load.  If there is neither, because the contact
-approaches from a great distance, its shear traction is not known, and Q is NaN there.
+sigma change accordingly (SHEAR_STEP).  A step ends where |Q| reaches f P or falls below it.  Where
+the contact becomes four times as wide, or a quarter as wide, between two instants, steps are
+shorter next to the narrower contact.  The contact before a loss of contact is small.  So is the
+first one after it, or it is that of a flat body under a small load.  If there is neither, because
+the contact approaches from a great distance, its shear traction is not known, and Q is NaN there.
 """
 
 import math
@@ -17,19 +17,19 @@ from ..body import Body
 from ..cycle import Own, contact
 from ..types import Array
 
-SMALL = 0.02
+SMALL_CONTACT = 0.02
 """Width of the last contact before a loss and of the first after it, relative to that at the
 previous and the next instant.  A flat body begins with a wide contact, under less than the square
 of this fraction of the load at the next instant."""
 
-SHEAR = 4.0
+SHEAR_STEP = 4.0
 """Largest change in Q/(f P) in a step, and in h sigma/(8 f P), relative to the largest motion of an
 edge."""
 
-MOST = 2.0
-"""Largest change that SHEAR divides into steps: from sliding one way to sliding the other."""
+MAX_SHEAR = 2.0
+"""Largest change that SHEAR_STEP divides into steps: from sliding one way to sliding the other."""
 
-LAST = 0.01
+LAST_STEP = 0.01
 """Length of the last step before an instant relative to the others.  The stick zone of the instant
 is that of this step; a slip zone that shrinks is longer in earlier steps."""
 
@@ -104,11 +104,11 @@ class _Way(NamedTuple):
         uneven = 4 * narrow < wide
         P, _, Q, sigma = self.loads
         shear = max(abs(Q[1] - Q[0]), wide * abs(sigma[1] - sigma[0]) / 8) / (f * max(P))
-        change = max((2 if uneven else 1) * moved / self.widest, min(shear, MOST) / SHEAR)
+        change = max((2 if uneven else 1) * moved / self.widest, min(shear, MAX_SHEAR) / SHEAR_STEP)
         count = max(1, math.ceil(change / reach))
         t = np.arange(count + 1) / count
         if short_end:
-            t = np.concatenate([t[:-1], [1 - LAST / count, 1.0]])
+            t = np.concatenate([t[:-1], [1 - LAST_STEP / count, 1.0]])
         widens = self.a[1] + self.c[1] == wide
         if uneven:
             t = t**2 if widens else 1 - (1 - t) ** 2
@@ -135,7 +135,7 @@ class _Way(NamedTuple):
             P, M = _between(empty, full, part)
             left, right = touching(self.body, self.own, P, M)
             near = left < a + self.widest and right < c + self.widest
-            if near and left + right > SMALL * (a + c):
+            if near and left + right > SMALL_CONTACT * (a + c):
                 high = part
             else:
                 low = part
@@ -147,5 +147,5 @@ class _Way(NamedTuple):
             return False
         P, M = _between(self.loads[:2, 0], self.loads[:2, 1], t)
         left, right = touching(self.body, self.own, P, M)
-        small = left + right < 2 * SMALL * (self.a[1] + self.c[1])
-        return not (small or SMALL**2 * self.loads[0, 1] > P)
+        small = left + right < 2 * SMALL_CONTACT * (self.a[1] + self.c[1])
+        return not (small or SMALL_CONTACT**2 * self.loads[0, 1] > P)
