@@ -10,11 +10,13 @@ from collections.abc import Iterator
 from functools import partial
 from itertools import islice
 
-from sympy import Derivative, Expr, Limit, Rational
+from sympy import Derivative, Dummy, Expr, Limit, Rational
 from sympy.core.function import AppliedUndef
 
 from derive.check.claim import Basis, Claim
-from derive.check.draw import has_integral, points
+from derive.check.context import calls_in, integrals
+from derive.check.draw import has_integral, points, ranges_of
+from derive.check.intervals import gap_of, unsettled
 from derive.check.judge import Judged, Judging, Sides
 from derive.check.numbers import near
 from derive.command.errors import UserError
@@ -33,15 +35,28 @@ _PARTS = 97
 def basis(claim: Claim, judged: Judged, look: LookAtClock) -> Basis:
     """Return what the verdict on a claim rests on."""
     meant = claim.meant
-    if meant.basis != Basis.BODY or meant.reached is not None or not judged.good:
+    takes_part = meant.basis in (Basis.BODY, Basis.BOTH)
+    if not takes_part or meant.reached is not None or not judged.good:
         return meant.basis
+    if meant.is_inequality:
+        return Basis.DEFINITIONS if _is_settled(claim) else meant.basis
     found = None
     for sides in _arbitrary(*meant.called):
         is_true = _is_true(claim, sides, look)
         if is_true is False:
-            return Basis.BODY
+            return meant.basis
         found = found or is_true
-    return Basis.DEFINITIONS if found else Basis.BODY
+    return Basis.DEFINITIONS if found else meant.basis
+
+
+def _is_settled(claim: Claim) -> bool:
+    """Whether an inequality is true whatever real numbers the body's formulas give."""
+    left, right = claim.meant.called
+    calls = {*integrals(left, right), *calls_in(left, right)}
+    table = {call: Dummy(real=True) for call in calls}
+    gap = gap_of(left.xreplace(table), claim.meant.relation, right.xreplace(table))
+    strict, ranges = claim.meant.relation.is_strict, ranges_of(claim)
+    return unsettled(gap, strict, ranges, claim.meant.conditions) == 1
 
 
 def is_empty(claim: Claim, look: LookAtClock) -> bool:
@@ -62,8 +77,7 @@ def _is_true(claim: Claim, sides: tuple[Expr, Expr], look: LookAtClock) -> bool 
             return tending.good
         found = None
         for point in islice(points(claim), _FEW if has_integral(claim) else _POINTS):
-            may_be_true = claim.meant.is_inequality or near(*sides, partial(dict, point))
-            is_true = may_be_true and judging.is_true(point)
+            is_true = near(*sides, partial(dict, point)) and judging.is_true(point)
             if is_true is False:
                 return False
             found = found or is_true

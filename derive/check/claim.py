@@ -63,14 +63,16 @@ class Basis(StrEnum):
     """What the verdict on a claim rests on."""
 
     BODY = "the body"
+    BOTH = "the body and your definitions"
+    """A parameter of the body has a meaning of its own in the claim."""
     DEFINITIONS = "your definitions"
     GIVEN = "given"
     MATHEMATICS = "mathematics"
 
     @property
     def word(self) -> str:
-        """The last word, for tables."""
-        return self.split()[-1]
+        """The same in short, for tables."""
+        return ", ".join(each.split()[-1] for each in self.split(" and "))
 
 
 @dataclass(frozen=True)

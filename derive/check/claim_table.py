@@ -4,6 +4,7 @@ In:   the table, and the declarations of the file.
 Out:  the Claim, which is unchecked with the reason if an entry is wrong or a meaning is missing.
 """
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
@@ -253,7 +254,7 @@ class _Equation:
         if self.given:
             return Basis.GIVEN
         if any(side.has(AppliedUndef) for side in self._called_sides):
-            return Basis.BODY
+            return Basis.BOTH if self._own_parameters else Basis.BODY
         used = free(self.left, self.right, *self.through) & self.context.meant.as_written.keys()
         return Basis.DEFINITIONS if used else Basis.MATHEMATICS
 
@@ -309,6 +310,9 @@ class _Equation:
             bound |= {each.args[1] for each in written.atoms(Limit)}
         names = self._names("require")
         for text in self.entry.requirements:
+            why = f"require: {text!r} is an equation and not a condition"
+            remedy = "use `symbols` or `ranges` for a value, or write <, <=, > or >="
+            self.place.demand(not re.search("(?<![<>=!])=(?!=)", text), why, remedy)
             found.add(condition(text, names).xreplace(meant.in_variables))
         remedy = "correct `require`, or the arguments of the formulas that are called"
         self.place.demand(false not in found, "its conditions are never satisfied", remedy)
@@ -367,14 +371,21 @@ class _Equation:
             remedy = "integrate over another variable, such as s or xi, in the integrand too"
             raise self.place.bad(why, remedy)
 
-    def _demand_one_parameter(self, held: set[Symbol]) -> None:
-        """Reject a meaning for a parameter of the body that formulas of the body also contain."""
+    @property
+    def _own_parameters(self) -> dict[str, Expr]:
+        """Parameters of the body that the equation uses with a meaning of its own."""
         meant, body = self.context.meant, self.context.body
         used = {symbol.name for symbol in free(self.left, self.right)}
         used = used.union(*(meant.uses.get(name, ()) for name in used))
-        for name in sorted(used & {*(body.parameters if body else ()), "E_star", "f"}):
-            given = meant.in_variables.get(Symbol(name))
-            if given is not None and self.context.variables.get(name) in held - given.free_symbols:
+        known = used & {*(body.parameters if body else ()), "E_star", "f"}
+        table = {name: meant.in_variables.get(Symbol(name)) for name in sorted(known)}
+        return {name: given for name, given in table.items() if given is not None}
+
+    def _demand_one_parameter(self, held: set[Symbol]) -> None:
+        """Reject a meaning for a parameter of the body that formulas of the body also contain."""
+        for name, given in self._own_parameters.items():
+            if self.context.variables.get(name) in held - given.free_symbols:
+                given = as_text(given)
                 why = f"{name} is defined as {given}, but formulas of the body also contain {name}"
                 raise self.place.bad(why, f"use {name} in the other symbols instead")
 

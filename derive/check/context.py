@@ -12,6 +12,7 @@ from typing import Any
 from sympy import Derivative, Expr, Integral, Limit, Piecewise, Symbol
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
+from sympy.printing.str import StrPrinter
 
 from derive.check.bodies import ProvenBody, placed
 from derive.check.mistakes import TimeLimit
@@ -22,7 +23,6 @@ from derive.reading.improper import (
     FROM_POLE,
     IMPROPER,
     PrincipalValue,
-    ToInfinity,
     ordinary,
     proper,
 )
@@ -157,7 +157,14 @@ class Context:
         if any(each.has(Piecewise) for each in expr.atoms(Limit)):  # SymPy takes either branch
             why = "it has a limit of a formula with cases, which cannot be determined"
             raise self.place.bad(why, "write the formula on the side from which the limit is taken")
-        return expr.doit() if expr.has(Derivative, Limit) else expr
+        if not expr.has(Derivative, Limit):
+            return expr
+        try:
+            return expr.doit()
+        except (AttributeError, NotImplementedError, TypeError, ValueError) as error:
+            call = max(expr.atoms(Derivative, Limit), key=lambda each: len(str(each)))
+            why = f"no value of {as_text(call)} was found"
+            raise self.place.bad(why, "write its value") from error
 
     def in_variables(self, expr: Any) -> Any:
         """Replace the symbols of the source, and the calls, by their meanings."""
@@ -203,18 +210,32 @@ class Context:
         return {symbol: unit for symbol, unit in found.items() if unit}
 
 
-def as_text(call: Expr) -> str:
-    """Return a call, a derivative or a limit as a user would type it."""
-    if isinstance(call, Derivative):
-        (along, times) = call.variable_count[0]
-        return f"diff({call.expr}, {along}" + (f", {times})" if times != 1 else ")")
-    if isinstance(call, PrincipalValue):
-        return f"pv({', '.join(map(str, call.args))})"
-    if isinstance(call, ToInfinity):
-        return f"integral({', '.join(map(str, call.args))}, oo)"
-    if isinstance(call, Limit):
-        return f"limit({', '.join(map(str, call.args[:3]))})"
-    return str(call)
+class _Typed(StrPrinter):
+    """Writes calls as a user would type them."""
+
+    def _print_Integral(self, over: Expr) -> str:
+        inside = str(self._print(over.function))
+        for limits in over.limits:
+            inside = f"integral({inside}, {self.stringify(limits, ', ')})"
+        return inside
+
+    def _print_ToInfinity(self, call: Expr) -> str:
+        return f"integral({self.stringify(call.args, ', ')}, oo)"
+
+    def _print_PrincipalValue(self, call: Expr) -> str:
+        return f"pv({self.stringify(call.args, ', ')})"
+
+    def _print_Limit(self, call: Expr) -> str:
+        return f"limit({self.stringify(call.args[:3], ', ')})"
+
+    def _print_Derivative(self, call: Expr) -> str:
+        ((along, times),) = call.variable_count
+        return f"diff({self._print(call.expr)}, {along}" + (f", {times})" if times != 1 else ")")
+
+
+def as_text(expr: Expr) -> str:
+    """Return an expression as a user would type it."""
+    return str(_Typed().doprint(expr))
 
 
 def integrals(*exprs: Expr) -> list[Integral]:

@@ -5,16 +5,15 @@ some variables are then moved to a place where the claim may fail:
 
     points    nowhere: variables of moderate size, or spread evenly over a declared range
     further   over many decades; near the ends of ranges; past a numerical limit of integration;
-              to both sides of a zero of a modulus, a logarithm, a root or the like, or of the
-              difference of an inequality; and to where such a thing, or a spike, is stationary
-    closest   to where the difference of an inequality is stationary, and to the ends of ranges
+              to both sides of a zero of a modulus, a logarithm, a root or the like; and to where
+              such a thing, or a spike, is stationary
 """
 
 import hashlib
 import random
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
-from itertools import chain, islice, product
+from itertools import chain, islice
 from math import nan
 from typing import Any, NamedTuple
 
@@ -49,8 +48,6 @@ _DECADES = 6
 _GRID = 96
 """Number of grid points for the sign of an expression; an even number leaves out the middle."""
 
-_EXACT = 300
-"""Digits of the ends of ranges, which are more than any working digits."""
 _FADED = 69
 """The exponential of minus this number is below the digits that two sides must share."""
 _FAR = np.array([1e-30, 10.0**-_DECADES, 10.0**_DECADES, 1e30])
@@ -94,6 +91,11 @@ def variables(claim: Claim) -> list[Symbol]:
     }
     bound = {limit[0] for each in integrals for limit in each.limits} - set(claim.meant.ranges)
     return sorted(symbols - bound, key=in_order)
+
+
+def ranges_of(claim: Claim) -> dict[Symbol, Range]:
+    """Return the ranges of all variables."""
+    return {symbol: claim.meant.ranges.get(symbol, SCALE) for symbol in variables(claim)}
 
 
 def in_order(symbol: Symbol) -> tuple[str, str]:
@@ -160,24 +162,24 @@ def further(claim: Claim, exprs: Sequence[Expr]) -> Iterator[Point]:
         found = {switch for expr in exprs for switch in switches(expr) if not switch.of.is_nonzero}
         kinks = [switch.of for switch in found if switch.kind == "kink"]
         peaks = [inner for expr in exprs for inner in peaked(expr)]
-        difference = [exprs[0] - exprs[1]] if claim.meant.is_inequality else []
-        either_side = drawn.either_side([*(switch.of for switch in found), *difference])
-        stationary = (point for point, _ in drawn.stationary([*kinks, *peaks]))
-        groups += [islice(either_side, numbers.special), islice(stationary, 2 * numbers.special)]
+        either_side = drawn.either_side(switch.of for switch in found)
+        stationary = islice(drawn.stationary([*kinks, *peaks]), 2 * numbers.special)
+        groups += [islice(either_side, numbers.special), stationary]
     yield from (point for point in chain.from_iterable(groups) if is_allowed(claim, point))
 
 
 def unseen(claim: Claim, exprs: Sequence[Expr], examined: Sequence[Point]) -> str:
     """Describe what the examined points do not show; empty if nothing was found.
 
-    A switch may have another sign beyond them all, and a function that fades may differ from its
-    limit in no digit.
+    A switch, or the difference of an inequality, may have another sign beyond them all, and a
+    function that fades may differ from its limit in no digit.
     """
     drawn = _Drawn(claim, "unseen")
     if claim.meant.cases or not drawn.symbols:
         return ""
     point = drawn.point()
     found = {each.of for side in exprs for each in switches(side)}
+    found |= {exprs[0] - exprs[1]} if claim.meant.is_inequality else set()
     fading = {each.args[0] for side in exprs for each in side.atoms(exp, HyperbolicFunction)}
     for expr, variable in drawn.along(found):
         below, low, high, above = np.sign(along(expr, variable, point, _FAR))
@@ -194,16 +196,6 @@ def unseen(claim: Claim, exprs: Sequence[Expr], examined: Sequence[Point]) -> st
 
 def _values(expr: Expr, variable: Symbol, where: Sequence[Point]) -> list[float]:
     return [float(along(expr, variable, p, np.array([float(p[variable])]))[0]) for p in where]
-
-
-def closest(claim: Claim, exprs: Sequence[Expr]) -> Iterator[tuple[Point, list[Point]]]:
-    """Yield points where the sides of an inequality may be closest, each with points beside it."""
-    if not (claim.meant.cases or has_integral(claim)):
-        drawn = _Drawn(claim, "closest")
-        found = drawn.stationary([exprs[0] - exprs[1]], every=True)
-        allowed = ((point, beside) for point, beside in found if is_allowed(claim, point))
-        yield from islice(allowed, _MANY.special)
-        yield from ((each, [drawn.point()]) for each in drawn.at_ends() if is_allowed(claim, each))
 
 
 class _Drawn:
@@ -249,13 +241,6 @@ class _Drawn:
                 }
             )
 
-    def at_ends(self) -> Iterator[Point]:
-        """Yield points with all variables that have a range at its ends, as they are written."""
-        with mpmath.workdps(_EXACT):
-            ends = [[mpf(str(end)) for end in (s.low, s.high)] for s in self.ranges.values()]
-        for corner in islice(product(*ends) if ends else (), _MANY.corners):
-            yield self.point() | dict(zip(self.ranges, corner, strict=True))
-
     def past_limits(self, exprs: Sequence[Expr]) -> Iterator[Point]:
         """Yield points with variables of an integrand close to a numerical limit."""
         near = set[tuple[Symbol, float]]()
@@ -276,24 +261,19 @@ class _Drawn:
                     share = 10 ** self.rng.uniform(-4, 0)
                     yield point | {variable: mpf(zero + (end - zero) * share)}
 
-    def stationary(
-        self, exprs: Iterable[Expr], every: bool = False
-    ) -> Iterator[tuple[Point, list[Point]]]:
-        """Yield points where an expression is stationary, each with a point on either side.
+    def stationary(self, exprs: Iterable[Expr]) -> Iterator[Point]:
+        """Yield points where an expression is stationary.
 
         Near such points it may change sign twice between two neighbouring points of a grid.  The
         variables are treated one after the other, and each keeps the value that was found for it.
-
-        every: whether all values of a variable are wanted, and not only one
         """
         points_ = dict[Expr, Point]()
         for expr, variable in self.along(exprs):
             point = points_.setdefault(expr, self.point())
-            found = zeros(expr.diff(variable), variable, point, self._grid(variable))
-            for zero, ends in found if every else found[:1]:
-                beside = [point | {variable: mpf(end)} for end in ends]
-                yield point | {variable: mpf(zero)}, beside
-            points_[expr] = point | {variable: mpf(zero) for zero, _ in found[:1]}  # noqa: B035
+            grid = self._grid(variable)
+            for zero, _ in zeros(expr.diff(variable), variable, point, grid)[:1]:
+                points_[expr] = point | {variable: mpf(zero)}
+                yield points_[expr]
 
     def along(self, exprs: Iterable[Expr]) -> Iterator[tuple[Expr, Symbol]]:
         """Yield the expressions in the variables, the shortest first, with each variable."""

@@ -1,69 +1,311 @@
-"""Decide an inequality over the whole ranges of one or two variables by intervals.
+"""Decide an inequality by intervals: over whole ranges of its variables, and not only at points.
 
-Balls enclose all values of the difference of its sides over a box of the variables.  A box whose
-enclosure contains zero is divided, until all boxes are decided or there are too many of them.
+Balls enclose all values of the gap between its sides over a box of the variables.  A box on which
+the gap may have either sign is reduced to a face if the gap grows along a variable everywhere on
+it, or else divided.  The box that may reach lowest comes first, so that a place at which the
+inequality is false is found early.  What is not real counts as true, because nothing is said there.
 """
 
-from collections.abc import Mapping
-from math import inf, nextafter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from heapq import heappop, heappush
+from itertools import count
+from math import inf, sqrt
+from typing import Any
 
 import sympy as sp
-from flint import arb
+from flint import acb, arb
 from sympy import Expr, Symbol
+from sympy.core.relational import Relational
+from sympy.logic.boolalg import Boolean
 
 from derive.check.claim import Range
+from derive.check.zero import is_too_long, vanishes_at
 from derive.command.limit import LookAtClock
-from derive.proof.balls import FUNCTIONS, digits
-from derive.proof.values import program
+from derive.proof.balls import FUNCTIONS, Ball, digits, power, root
+from derive.proof.values import Undecided, program
+from derive.reading.relation import Relation
 
-_MOST_BOXES = 2000
-_DIGITS = 20
-_CONDITIONS = (sp.logic.boolalg.Boolean, sp.Piecewise, sp.ITE)
-_ENCLOSED = {each for each in FUNCTIONS if not issubclass(each, _CONDITIONS)}
-"""Functions whose values over a whole ball are enclosed; conditions are decided at its middle."""
+_MOST_BOXES = 1600
+"""The largest number of boxes that are examined."""
+_DIGITS = 80
+_JUMPS = (sp.sign, sp.Heaviside, sp.Piecewise, sp.atan2)
+"""Functions with jumps, whose rates of change do not tell how they change."""
+_HYPERBOLIC = sp.sinh, sp.cosh, sp.tanh
+_POSITIVE = Fraction(1, 10**6), Fraction(10**6)
+"""The ends between which a variable without a range is examined."""
 
-
-def is_positive(expr: Expr, ranges: Mapping[Symbol, Range], look: LookAtClock) -> bool:
-    """Whether an expression is shown to be positive wherever it is real in the ranges."""
-    if not 1 <= len(ranges) <= 2 or not _is_enclosed(expr):
-        return False
-    if any(span.powers for span in ranges.values()):
-        return False
-    of = program(expr)
-    boxes = [{s: _whole(span) for s, span in ranges.items()}]
-    for _ in range(_MOST_BOXES):
-        look()
-        box = boxes.pop()
-        with digits(_DIGITS):
-            value = of({s: arb(low).union(arb(high)) for s, (low, high) in box.items()})
-            is_decided = isinstance(value, arb) and value > 0
-        if not is_decided:
-            symbol = max(box, key=lambda s: _share(box[s], ranges[s]))
-            low, high = box[symbol]
-            middle = (low + high) / 2
-            boxes += [{**box, symbol: part} for part in ((low, middle), (middle, high))]
-        if not boxes:
-            return True
-    return False
+Box = dict[Symbol, tuple[Fraction, Fraction]]
 
 
-def _is_enclosed(expr: Expr) -> bool:
-    return all(
-        isinstance(node, Symbol | sp.Rational | sp.Pow)
-        or node in (sp.pi, sp.E)
-        or node.func in _ENCLOSED
-        for node in sp.preorder_traversal(expr)
-    )
+@dataclass(frozen=True)
+class Decision:
+    """What is shown of an inequality.
+
+    is_true  whether it is true; None if this is not shown
+    over     the ranges of the variables that matter, over which it is shown
+    where    a point at which it is false, or near which nothing is shown
+    """
+
+    is_true: bool | None
+    over: Mapping[Symbol, Range]
+    where: Mapping[Symbol, Fraction] = field(default_factory=dict)
 
 
-def _whole(span: Range) -> tuple[float, float]:
-    """The ends of a range, rounded outwards because decimal numbers are not exact."""
-    low, high = (
-        end and nextafter(end, sign * inf) for end, sign in ((span.low, -1), (span.high, 1))
-    )
-    return low, high
+def decide(
+    gap: Expr,
+    is_strict: bool,
+    ranges: Mapping[Symbol, Range],
+    conditions: Iterable[Boolean],
+    look: LookAtClock,
+) -> Decision:
+    """Decide whether `gap` is positive, or at least zero, wherever the conditions are met."""
+    given = [each for condition in conditions for each in sp.And.make_args(condition)]
+    gap = unsettled(gap, is_strict, ranges, given)
+    if gap == 1:
+        return Decision(True, {})
+    held = gap.free_symbols.union(*(each.free_symbols for each in given))
+    over = {symbol: span for symbol, span in ranges.items() if symbol in held}
+    return _Search(gap, is_strict, over, given, look).decision()
 
 
-def _share(ends: tuple[float, float], span: Range) -> float:
-    """The part of a range that a side of a box covers."""
-    return (ends[1] - ends[0]) / (span.high - span.low)
+def gap_of(left: Expr, relation: Relation, right: Expr) -> Expr:
+    """Return what is positive where an inequality is true."""
+    return right - left if relation in (Relation.BELOW, Relation.AT_MOST) else left - right
+
+
+def ends(span: Range) -> tuple[Fraction, Fraction]:
+    """The ends of a range as they are written, or those between which it is examined."""
+    return _POSITIVE if span.powers else (Fraction(str(span.low)), Fraction(str(span.high)))
+
+
+def unsettled(
+    gap: Expr, is_strict: bool, ranges: Mapping[Symbol, Range], given: Sequence[Boolean]
+) -> Expr:
+    """Return the factors of a gap that neither signs nor conditions show to be positive, or 1."""
+    if is_too_long(gap):
+        return gap
+    in_exponentials = gap.rewrite(_HYPERBOLIC, sp.exp)
+    with_zero = {s: sp.Dummy(s.name, nonnegative=True) for s in ranges if ranges[s].low == 0}
+    strict = [each for each in given if isinstance(each, sp.Gt | sp.Lt)]
+    positive = [(each.gts - each.lts).xreplace(with_zero) for each in strict]
+    left = list[Expr]()
+    factors = sp.Mul.make_args(sp.factor(sp.together(in_exponentials.xreplace(with_zero))))
+    for factor in factors:
+        base, power = factor.as_base_exp()
+        signed = base if power.is_Integer and power.is_odd else factor  # of the same sign
+        shares = [sp.cancel(signed / each) for each in positive] if factor.free_symbols else []
+        if any(share.is_negative for share in shares):
+            left.append(sp.S.NegativeOne)
+        elif not (_is_positive(factor) or any(share.is_positive for share in shares)):
+            left.append(factor)
+    rest = sp.Mul(*left)
+    is_settled = rest.is_positive or (rest.is_nonnegative and not is_strict)
+    back = {dummy: symbol for symbol, dummy in with_zero.items()}
+    if is_settled:
+        return sp.S.One
+    return gap if left == [*factors] else rest.xreplace(back)  # sums of squares stay what they are
+
+
+def _is_positive(factor: Expr) -> bool:
+    """Whether a factor is positive wherever it has a real value."""
+    base, power = factor.as_base_exp()
+    is_over_even = power.is_Integer and power.is_even and power.is_negative and base.is_real
+    return bool(factor.is_positive or is_over_even)
+
+
+class _Search:
+    """The boxes of one inequality that are not decided yet."""
+
+    def __init__(
+        self,
+        gap: Expr,
+        is_strict: bool,
+        ranges: Mapping[Symbol, Range],
+        conditions: Sequence[Boolean],
+        look: LookAtClock,
+    ) -> None:
+        self.gap, self.is_strict, self.conditions, self.look = gap, is_strict, conditions, look
+        self.ranges = ranges
+        self.rates = {} if gap.has(*_JUMPS) else {s: gap.diff(s) for s in ranges}
+        self.number, self.dives, self.touches = count(), False, dict[Symbol, Fraction]()
+        self.boxes = list[tuple[int, float, int, int, Box]]()
+        self._add(-inf, 0, {symbol: ends(span) for symbol, span in ranges.items()})
+
+    def decision(self) -> Decision:
+        """Examine boxes until all are decided, one is false, or there are too many.
+
+        At first the lowest of all boxes is taken, and then the lowest part of the one before.
+        """
+        for number in range(_MOST_BOXES):
+            self.look()
+            self.dives = number > _MOST_BOXES / 2
+            *_, depth, _, box = heappop(self.boxes)
+            with digits(_DIGITS):
+                found = self._examined(box, -depth)
+            if found is not None:
+                return found
+            if not self.boxes:
+                break
+        inside = (_middle(box) for *_, box in sorted(self.boxes) if all(self._met(box)))
+        near = self.touches or next(inside, {})
+        return Decision(None if self.boxes or near else True, self.ranges, near)
+
+    def _add(self, lowest: float, depth: int, box: Box) -> None:
+        first = -depth if self.dives else 0
+        heappush(self.boxes, (first, lowest, -depth, next(self.number), box))
+
+    def _met(self, box: Box) -> list[bool | None]:
+        """Whether each condition is met on a box; None if it is not met everywhere."""
+        balls = {symbol: _hull(*map(_exact, span)) for symbol, span in box.items()}
+        return [enclosed(each, balls) for each in self.conditions]
+
+    def _examined(self, box: Box, depth: int) -> Decision | None:
+        """Decide a box, reduce it or divide it; return a decision if its middle is false."""
+        balls, middle = {s: _hull(*map(_exact, of)) for s, of in box.items()}, _middle(box)
+        met = self._met(box)
+        if False in met:
+            return None
+        value = enclosed(self.gap, balls)
+        if self._is_met(value):
+            return None
+        at_middle = {symbol: _exact(place) for symbol, place in middle.items()}
+        here = _at(self.gap, at_middle)
+        is_inside = all(enclosed(each, at_middle) for each in self.conditions)
+        if is_inside and isinstance(here, arb) and here < 0:
+            return Decision(False, self.ranges, middle)
+        slopes = {symbol: enclosed(rate, balls) for symbol, rate in self.rates.items()}
+        lowest = float(value.real.lower()) if value.is_finite() else -inf
+        known = [here, *slopes.values()]
+        if slopes and all(isinstance(v, arb) and v.is_finite() for v in known):
+            change = sum((slopes[s] * (balls[s] - at_middle[s]) for s in box), start=arb(0))
+            if self._is_met(here + change):
+                return None
+            reduced = {s: _face(box[s], slopes[s]) for s in box}
+            if reduced != box and all(met):
+                self._add(lowest, depth, reduced)
+                return None
+        self._divide(box, middle, lowest, depth)
+        return None
+
+    def _divide(self, box: Box, middle: dict[Symbol, Fraction], lowest: float, depth: int) -> None:
+        """Divide a box along the variables in turn; a single point must be exactly zero."""
+        wide = [symbol for symbol, (low, high) in box.items() if low < high]
+        if not wide:
+            exact = {s: sp.Rational(at.numerator, at.denominator) for s, at in middle.items()}
+            if self.is_strict or not vanishes_at(self.gap, exact):
+                self.touches = middle
+            return
+        along = wide[depth % len(wide)]
+        low, high = box[along]
+        for part in ((low, middle[along]), (middle[along], high)):
+            self._add(lowest, depth + 1, {**box, along: part})
+
+    def _is_met(self, value: Ball) -> bool:
+        """Whether all real values of an enclosure are as wanted."""
+        real = value if isinstance(value, arb) else value.real
+        is_never_real = isinstance(value, acb) and not value.imag.contains(0)
+        return bool(real > 0 or (real >= 0 and not self.is_strict)) or is_never_real
+
+
+def _middle(box: Box) -> dict[Symbol, Fraction]:
+    """The point at which a box is divided: by proportion if an end is many times the other."""
+    return {
+        s: Fraction(sqrt(low * high)) if 0 < 4 * low < high else (low + high) / 2
+        for s, (low, high) in box.items()
+    }
+
+
+def _face(span: tuple[Fraction, Fraction], slope: arb) -> tuple[Fraction, Fraction]:
+    """The end at which a quantity is lowest, or the whole if its slope has no sign."""
+    low, high = span
+    return (low, low) if slope > 0 else (high, high) if slope < 0 else span
+
+
+# ------------------------------------------------------------------ enclosures
+
+
+def enclosed(node: sp.Basic, box: Mapping[Symbol, Ball]) -> Any:
+    """All values over a box: a ball, or for a condition True, False or None (either)."""
+    known: dict[sp.Basic, Any] = dict(box)
+
+    def of(node: sp.Basic) -> Any:
+        if node not in known:
+            known[node] = _value(node)
+        return known[node]
+
+    def _value(node: sp.Basic) -> Any:
+        if node.is_Atom:
+            return _at(node, {})
+        if isinstance(node, sp.Piecewise):
+            return _branches(node)
+        parts = [of(arg) for arg in node.args]
+        if isinstance(node, Relational):
+            return _compared(node, acb(parts[0]) - acb(parts[1]))
+        if isinstance(node, sp.Not):
+            return None if parts[0] is None else not parts[0]
+        if isinstance(node, sp.And | sp.Or):
+            decisive = isinstance(node, sp.Or)
+            return decisive if decisive in parts else None if None in parts else not decisive
+        if isinstance(node, sp.Pow):
+            return _power(node.exp, *parts)
+        return FUNCTIONS[node.func](*parts) if node.func in FUNCTIONS else arb("nan")
+
+    def _branches(node: sp.Piecewise) -> Ball:
+        found = None
+        for pair in node.args:
+            met = of(pair.cond)
+            if met is not False:
+                value = of(pair.expr)
+                found = value if found is None else _hull(found, value)
+            if met is True:
+                break
+        return arb("nan") if found is None else found
+
+    return of(node)
+
+
+def _compared(node: Relational, gap: acb) -> bool | None:
+    """Whether a relation between two sides is met; None if both is possible."""
+    if not gap.imag.contains(0):
+        return None
+    below, above = bool(gap.real < 0), bool(gap.real > 0)
+    if not below and not above:
+        return None
+    if isinstance(node, sp.Eq | sp.Ne):
+        return isinstance(node, sp.Ne)
+    return below == isinstance(node, sp.Lt | sp.Le)
+
+
+def _power(exponent: Expr, base: Ball, value: Ball) -> Ball:
+    if exponent.is_Integer and isinstance(base, arb):
+        size = abs(base) if exponent.is_even else base
+        least = size.lower().max(arb(0)) if exponent.is_even else size.lower()
+        found: Ball = _hull(least ** abs(int(exponent)), size.upper() ** abs(int(exponent)))
+        return found if exponent > 0 else 1 / found
+    if exponent.is_Rational and exponent.q == 2:
+        if isinstance(base, arb) and base.contains(0):  # below zero, the root is imaginary
+            parts = [arb(0).union(each.upper().sqrt()) for each in (base, -base)]
+            return power(acb(*parts), int(exponent.p))
+        return power(root(base), int(exponent.p))
+    return power(base, value)
+
+
+def _at(expr: Expr, point: Mapping[Symbol, Ball]) -> Ball:
+    """The value at one point."""
+    try:
+        found: Ball = program(expr)(point)
+    except Undecided:
+        return arb("nan")
+    return found
+
+
+def _exact(number: Fraction) -> arb:
+    return arb(number.numerator) / number.denominator
+
+
+def _hull(one: Ball, other: Ball) -> Ball:
+    if isinstance(one, arb) and isinstance(other, arb):
+        return one.union(other)
+    return acb(one).union(acb(other))

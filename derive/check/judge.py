@@ -1,6 +1,7 @@
 """Compare two sides with given meanings: at points, near a limit or a bound, and by exact steps."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
@@ -11,10 +12,10 @@ from mpmath import mpf
 from mpmath.libmp import to_rational
 from sympy import Expr, Integral, Rational, Symbol
 
-from derive.check.claim import SCALE, Claim, Meaning, Point, Range, Rounded, Verdict
+from derive.check.claim import Claim, Meaning, Point, Range, Rounded, Verdict
 from derive.check.diagnosis import quotient
-from derive.check.draw import LEAST, closest, further, points, spread, unseen, variables
-from derive.check.intervals import is_positive
+from derive.check.draw import LEAST, further, points, ranges_of, spread, unseen, variables
+from derive.check.intervals import Decision, decide, ends, gap_of
 from derive.check.numbers import Numbers, Pair, both, numbers
 from derive.check.tending import Approach
 from derive.check.zero import constant, vanishes, vanishes_at
@@ -28,7 +29,11 @@ _MORE_DRAWN = 4
 _OFF = 6
 """Number of points on either side of a bound."""
 _TOUCHING = 1e-10
-"""Two sides touch if their gap is at most this fraction of the gaps beside it."""
+"""Two sides touch if their gap is at most this fraction of the gaps at all other points."""
+_FEW = 2
+"""An inequality of so many variables is true only if intervals show it."""
+_EXACT = 300
+"""Digits of a point at which an inequality is false, which are more than any working digits."""
 
 
 @dataclass(frozen=True)
@@ -81,15 +86,24 @@ def judge(
 
 def _to_the_digits(claim: Claim, rounded: Rounded) -> Judged | None:
     """Return a result if the exact constant rounds to the printed one, or else None."""
-    ratio = quotient(claim)
-    if ratio is None or mpmath.im(ratio.constant) != 0 or ratio.powers != 1 or ratio.constant <= 0:
-        return None
+    if claim.meant.cases:  # of which each may have another constant
+        judging = Judging(Sides(claim, *claim.meant.compared, claim.meant.meaning), no_clock)
+        for point in points(claim):
+            judging.is_true(point)
+        ratios = [pair.left / pair.right for pair in judging.found if pair.right != 0]
+        where = judging.where()
+    else:
+        ratio = quotient(claim)
+        ratios = [ratio.constant] if ratio is not None and ratio.powers == 1 else []
+        where = f"at {_points(ratio.count)}" if ratio else ""
     printed = mpf(rounded.value.p) / rounded.value.q
-    true = printed * ratio.constant**rounded.power
-    if abs(true - printed) > mpf(rounded.half.p) / rounded.half.q:
+    half = mpf(rounded.half.p) / rounded.half.q
+    true = [printed * each**rounded.power for each in ratios if each != 0 and not mpmath.im(each)]
+    count = len(claim.meant.cases) or 1
+    if len(true) < count or any(abs(each - printed) > half for each in true):
         return None
-    rounding = f"{mpmath.nstr(printed, 8)} stands for {mpmath.nstr(true, 12)}"
-    return Judged(Verdict.NUMERICAL, f"true with rounding at {ratio.count} points: {rounding}")
+    rounding = f"{mpmath.nstr(printed, 8)} stands for {mpmath.nstr(true[0], 12)}"
+    return Judged(Verdict.NUMERICAL, f"true with rounding {where}: {rounding}")
 
 
 @dataclass
@@ -161,9 +175,8 @@ class Judging:
             self._false_at(self._first_points(), Undefined)
             or self._at_too_few_points()
             or self._false_at(further(self.claim, self.sides.in_variables), Undecided)
-            or self._wrong_where_closest()
+            or self._by_intervals()
             or self._not_shown_at_points()
-            or self._inequality_is_true()
             or self._wrong_off_the_bound()
             or self._by_exact_steps()
         )
@@ -218,8 +231,17 @@ class Judging:
 
     def _at_too_few_points(self) -> Judged | None:
         few, claim = len(self.found), self.claim
-        if few >= LEAST or not variables(claim) or claim.meant.cases:
-            return None if few else self._judged(Verdict.UNCHECKED, "a side is not a real number")
+        if not few and (claim.meant.cases or not variables(claim)):
+            return self._judged(Verdict.UNCHECKED, "a side is not a real number")
+        if few >= LEAST or not variables(claim):
+            return None
+        if claim.meant.cases:
+            is_number = any(side.is_Rational and side != 0 for side in self.sides.in_variables)
+            if is_number or self._is_proven:
+                return None
+            why = f"true {self.where()}, which shows no general formula"
+            remedy = f"leave out `cases`, give {LEAST} of them, or write one side as a number"
+            return self._judged(Verdict.UNCHECKED, f"{why}: {remedy}")
         reasons = [f"both sides are real numbers at only {_points(few)}"]
         if self.unreal:
             reasons.append(f"one side is not real at {_points(self.unreal)}")
@@ -236,23 +258,6 @@ class Judging:
 
     # -------------------------------------------------------------- inequalities and bounds
 
-    def _wrong_where_closest(self) -> Judged | None:
-        """Judge an inequality where its sides are closest; they must not touch if it is strict."""
-        if not self.claim.meant.is_inequality:
-            return None
-        for point, beside in closest(self.claim, self.sides.in_variables):
-            try:
-                pair, *others = (self.sides.pair(each) for each in (point, *beside))
-            except Undefined:
-                continue
-            near = all(_gap(pair) < _TOUCHING * _gap(other) for other in others)
-            if near and self.claim.meant.relation.is_strict:
-                why = f"the sides touch or nearly touch: {_example(pair)}"
-                return self._judged(Verdict.UNCHECKED, why)
-            if judged := self._false_at([point], Undecided):
-                return judged
-        return None
-
     def _not_shown_at_points(self) -> Judged | None:
         """Judge nothing if the points do not show all of the sides, unless a proof exists."""
         why = unseen(self.claim, self.sides.in_variables, [pair.point for pair in self.found])
@@ -267,20 +272,52 @@ class Judging:
         except LimitReached:
             return False
 
-    def _inequality_is_true(self) -> Judged | None:
-        if not self.claim.meant.is_inequality or all(pair.agree for pair in self.found):
+    def _by_intervals(self) -> Judged | None:
+        """Judge an inequality over the whole ranges of its variables."""
+        meant = self.claim.meant
+        are_equal = all(pair.agree for pair in self.found) and self._is_proven
+        if not meant.is_inequality or are_equal:
             return None
-        ranges = self._ranges
-        below = self.claim.meant.relation in (Relation.BELOW, Relation.AT_MOST)
-        difference = -self._difference if below else self._difference
-        try:
-            if is_positive(difference, ranges, self.look):
-                spans = (f"{s} from {span.low:g} to {span.high:g}" for s, span in ranges.items())
-                why = f"true for all {' and '.join(spans)} at which both sides are real"
+        true = self._judged(Verdict.NUMERICAL, f"true {self.where()}")
+        left, right = self.sides.in_variables
+        gap, ranges = gap_of(left, meant.relation, right), ranges_of(self.claim)
+        if meant.cases or not ranges:
+            return true
+        found = Decision(None, ranges)
+        if not gap.has(Integral):
+            with suppress(LimitReached):
+                found = decide(gap, meant.relation.is_strict, ranges, meant.conditions, self.look)
+        if found.is_true:
+            spans = " and ".join(f"{s} from {_span(span)}" for s, span in found.over.items())
+            why = f"true for all {spans or 'values'} at which both sides are real"
+            if not any(span.powers for span in found.over.values()):
                 return self._judged(Verdict.HOLDS, why)
-        except LimitReached:
-            pass
-        return self._judged(Verdict.NUMERICAL, f"true {self._where()}")
+            return self._not_shown_at_points() or self._judged(Verdict.NUMERICAL, why)
+        with mpmath.workdps(_EXACT):
+            place = {s: mpf(at.numerator) / at.denominator for s, at in found.where.items()}
+        if found.is_true is False:
+            failed = self._false_at([self.found[0].point | place], Undecided)
+            if failed is not None:
+                return failed
+        if len(variables(self.claim)) > _FEW and not self._touches(place):
+            return self._not_shown_at_points() or true
+        where = ", ".join(f"{s} = {mpmath.nstr(value, 6)}" for s, value in place.items())
+        why = f"true {self.where()}, but intervals do not show it everywhere"
+        why += where and f", such as near {where}"
+        remedy = "restrict the variables with `low` and `high`, or write <= if the sides touch"
+        if gap.has(Integral):
+            remedy = "write the closed form of the integral"
+        return self._judged(Verdict.UNCHECKED, f"{why}: {remedy}")
+
+    def _touches(self, place: Point) -> bool:
+        """Whether the sides of a strict inequality are equal, or nearly, at one point."""
+        if not self.claim.meant.relation.is_strict or not place:
+            return False
+        try:
+            nearest = _gap(self.sides.pair(self.found[0].point | place))
+        except Undecided:
+            return False
+        return nearest < _TOUCHING * min(map(_gap, self.found))
 
     def _wrong_off_the_bound(self) -> Judged | None:
         """Judge the printed relation on both sides of the state in which a bound is reached."""
@@ -306,16 +343,11 @@ class Judging:
     @cached_property
     def _are_equal(self) -> str:
         """How both sides were shown to be equal everywhere; empty if they were not."""
-        return vanishes(self._difference, self._ranges)
-
-    @property
-    def _ranges(self) -> dict[Symbol, Range]:
-        """The ranges of all variables."""
-        return {s: self.claim.meant.ranges.get(s, SCALE) for s in variables(self.claim)}
+        return vanishes(self._difference, ranges_of(self.claim))
 
     def _by_exact_steps(self) -> Judged:
         worst = min(min(pair.digits, pair.known) for pair in self.found)
-        agree = f"the two sides agree to {min(worst, 2 * DIGITS)} digits {self._where()}"
+        agree = f"the two sides agree to {min(worst, 2 * DIGITS)} digits {self.where()}"
         if self.claim.meant.reached is not None:
             agree += f"; the relation is right at {_OFF} points on either side of the bound"
         try:
@@ -331,16 +363,16 @@ class Judging:
 
     # -------------------------------------------------------------- in words
 
-    def _where(self) -> str:
+    def where(self) -> str:
         """Describe the number of points that were examined and the ranges that they cover."""
         count = len(self.found)
         if not variables(self.claim):
             return "without any variables"
         if self.claim.meant.cases:
-            return f"only in {count} prescribed {'case' if count == 1 else 'cases'}"
+            return f"in {count} prescribed {'case' if count == 1 else 'cases'} alone"
         left_out = f"; no value at {self.left_out} more points" if self.left_out else ""
         left_out += f"; one side is not real at {self.unreal} more points" if self.unreal else ""
-        return f"at {count} points ({spread([pair.point for pair in self.found])}{left_out})"
+        return f"at {_points(count)} ({spread([pair.point for pair in self.found])}{left_out})"
 
     def _judged(self, verdict: Verdict, why: str) -> Judged:
         return Judged(verdict, why, tuple(self.found))
@@ -370,6 +402,11 @@ def _example(pair: Pair) -> str:
     if left == right:
         text += f", left minus right = {mpmath.nstr(pair.left - pair.right, 3)}"
     return text + (f" at {where}" if where else "")
+
+
+def _span(span: Range) -> str:
+    """The ends of a range in words."""
+    return " to ".join(f"{float(end):g}" for end in ends(span))
 
 
 def _exactly(value: mpf) -> Rational:

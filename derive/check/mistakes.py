@@ -71,7 +71,7 @@ class TimeLimit:
             why = f"it could not be read within {self.seconds:g} s"
             remedy = "simplify it, or increase `seconds`"
         except Exception as error:  # an error in SymPy must not stop the other claims
-            why = f"it could not be read ({type(error).__name__}: {error})"
+            why = f"it could not be read: an error in the algebra ({type(error).__name__})"
             remedy = "write it in another form"
         raise place.bad(why, remedy)
 

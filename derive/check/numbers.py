@@ -114,12 +114,12 @@ def _settled(side: Expr, found: Ball, held: Mapping[Symbol, Any]) -> Value:
     if found.contains(0) and abs(found).upper() < arb(10) ** (_GUARD - working):
         if isinstance(held, _Numbers):
             side = side.xreplace(dict(held.meaning))
-        if not _has_extremes(side, held):
+        if not has_extremes(side, held):
             return mpf(0)
     raise Undecided(f"cancellation leaves fewer than {DIGITS} of {working} working digits")
 
 
-def _has_extremes(expr: Expr, held: Mapping[Symbol, Any]) -> bool:
+def has_extremes(expr: Expr, held: Mapping[Symbol, Any]) -> bool:
     """Whether a part is extreme, also of an integrand in the middle of its range."""
     if any(map(_is_extreme, program(expr).parts(held))):
         return True
@@ -128,7 +128,7 @@ def _has_extremes(expr: Expr, held: Mapping[Symbol, Any]) -> bool:
             middle = {symbol: held[symbol] for symbol in over.free_symbols}
             for variable, low, high in reversed(over.limits):
                 middle[variable] = (program(low)(middle) + program(high)(middle)) / 2
-            if _has_extremes(over.function, middle):
+            if has_extremes(over.function, middle):
                 return True
     return False
 

@@ -129,10 +129,7 @@ def evidence(finding: Finding) -> str:
 def _convention(finding: Finding) -> list[str]:
     if finding.convention is None or finding.under is None:
         return []
-    return [
-        f"with {finding.convention.what}: {finding.under.why}",
-        f"this contradicts {finding.convention.contradicts}",
-    ]
+    return [f"with {finding.convention.what}: {finding.under.why}"]
 
 
 def _search(finding: Finding) -> list[str]:

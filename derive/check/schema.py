@@ -186,7 +186,6 @@ class Reinterpretation(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """An entry of `conventions`."""
 
     what: Text
-    contradicts: Text
     symbols: dict[str, Formula] = {}
 
 

@@ -1,30 +1,39 @@
 """Judge a claim about a limit by how its two sides approach each other.
 
 The expression that tends to the limit, for example c - x, has a gap to it that must vanish.  One
-variable moves to a place at which this gap is zero, in steps of four decades and from either side,
-while the others keep their values.  Such places are sought over all values that the variable may
-take.  If no order is printed, the ratio of left to right must tend to 1.  If an order is printed,
-the difference must decrease at least as fast as that power of the gap.
+variable moves to a place at which this gap is zero, in three steps and from either side, while the
+others keep their values.  Such places are sought over all values that the variable may take.  If no
+order is printed, the ratio of left to right must tend to 1.  If an order is printed, the difference
+over that power of the gap must stay bounded.
+
+The number of decades of the distance doubles with each step.  A quantity that is bounded then grows
+by smaller and smaller factors, one that is not by equal or larger ones.  The steps go so far that
+only a number of extreme size could still change the result; with such a number there is no verdict.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cached_property
+from math import ceil
 
 import mpmath
 import numpy as np
 from mpmath import mpf
-from sympy import Expr, Symbol, oo
+from sympy import Expr, Function, Integral, Piecewise, Symbol, oo
 
 from derive.check.claim import SCALE, SIGNED, Claim, Point, Verdict
 from derive.check.draw import in_order, is_allowed, points, zeros
+from derive.check.numbers import has_extremes
 from derive.command.limit import LookAtClock
-from derive.proof.balls import Value
+from derive.proof.balls import FUNCTIONS, Value
 from derive.proof.values import Undecided, evaluated
 
-_STEPS = tuple(mpf(10) ** -n for n in (4, 8, 12, 16))
+_DECADES, _WITH_INTEGRALS = (64, 128, 256), (4, 8, 16)
+"""Decades of the distances from a limit, and the same for sides with integrals or other functions
+that take long."""
 _DIGITS = 60
+"""Digits that are left of the quantities, beside those that cancel on the way."""
 _BASES = 6
 """Number of points from which the limit is approached."""
 _ROWS, _MOST_BASES = 12, 24
@@ -40,9 +49,15 @@ _SLOWEST = 0.05
 """A quantity vanishes if it decreases by a higher power of the distance than this one."""
 _SETTLES = 0.1
 """The largest ratio of the last two changes of a quantity that has a finite limit."""
-_SHORT = 0.02
-"""The amount by which the measured order may fall short of the printed one; less than a logarithm
-takes away."""
+_BOUNDED, _UNBOUNDED = 0.75, 0.93
+"""The largest ratio of the last two growths of a bounded quantity, and the least of one that is
+not bounded.  It is 1/2 for a limit that is approached as 1/log, and 1 for the growth of log."""
+_FIRST = (Verdict.FAILS, Verdict.UNCHECKED, Verdict.NUMERICAL)
+"""The order in which the verdicts from both sides of a limit count."""
+_CLOSE = 1e-6
+"""A limit nearer to 1 is told by its difference from 1."""
+_NOISE = mpf(10) ** -40
+"""Relative changes below this one are due to rounding."""
 
 
 class Kind(IntEnum):
@@ -85,6 +100,10 @@ class Approach:
 
     def __init__(self, claim: Claim, toward: tuple[Expr, Expr]) -> None:
         self.claim, (self.expr, self.end) = claim, toward
+        sides = [side.xreplace(dict(claim.meant.meaning)) for side in claim.meant.compared]
+        decades = _DECADES if all(map(_is_quick, (self.expr, *sides))) else _WITH_INTEGRALS
+        self.steps = [mpf(10) ** -each for each in decades]
+        self.digits = _DIGITS + ceil(decades[-1] * max(2, (claim.meant.order or 0) + 1))
         infinite = self.end in (oo, -oo)
         self.gap = 1 / self.expr if infinite else self.expr - self.end
         self.sign = 0 if not infinite else 1 if self.end == oo else -1
@@ -92,6 +111,9 @@ class Approach:
 
     def judged(self, sides: tuple[Expr, Expr], look: LookAtClock) -> tuple[Verdict, str]:
         """Return the verdict on two sides in terms of the variables, and the reason for it."""
+        if any(has_extremes(side, self._bases[0]) for side in sides if self._bases):
+            why = "a part is so large or small that it may matter only still nearer to the limit"
+            return Verdict.UNCHECKED, why
         results = list[tuple[Way, tuple[Verdict, str]]]()
         for way in self.ways:
             if (found := self._along(way, sides, look)) is not None:
@@ -155,7 +177,7 @@ class Approach:
         for number, base in enumerate(self._bases):
             if number >= _BASES and all(len(each) >= _ROWS for each in rows.values()):
                 break
-            with mpmath.workdps(2 * _DIGITS):
+            with mpmath.workdps(2 * self.digits):
                 for kind, place, moves in self._moved(variable, base):
                     if row := self._row(variable, moves, base):
                         rows.setdefault((kind, place), []).append(row)
@@ -164,23 +186,25 @@ class Approach:
     def _moved(self, variable: Symbol, base: Point) -> Iterator[tuple[Kind, str, list[mpf]]]:
         """Yield the values of a variable on the way to each place where the gap may vanish."""
         span = self.claim.meant.ranges.get(variable, SIGNED)
-        ends = [] if span is SIGNED or span is SCALE else [mpf(span.low), mpf(span.high)]
+        # the distances differ from point to point, so that what oscillates is seen to do so
+        steps = [step * (1 + abs(base[variable])) for step in self.steps]
+        ends = [] if span is SIGNED or span is SCALE else [mpf(str(span.low)), mpf(str(span.high))]
         for number, place in enumerate(self._zeros(variable, base)):
             if any(abs(place - end) <= _SAME * max(1, abs(end)) for end in ends):
                 continue  # it is approached from inside the range
             kind = Kind.INSIDE if not ends or ends[0] < place < ends[1] else Kind.OUTSIDE
             size = abs(place) if abs(place) > _SAME else mpf(1)
             for sign in (1, -1):
-                yield kind, f"zero {number}", [place + sign * size * step for step in _STEPS]
+                yield kind, f"zero {number}", [place + sign * size * step for step in steps]
         for end, sign in zip(ends, (1, -1), strict=False):
             if end != 0 or not variable.is_positive:
                 length = ends[1] - ends[0]
-                yield Kind.INSIDE, str(end), [end + sign * length * step for step in _STEPS]
-        yield Kind.EXTREME, "infinity", [1 / step for step in _STEPS]
+                yield Kind.INSIDE, str(end), [end + sign * length * step for step in steps]
+        yield Kind.EXTREME, "infinity", [1 / step for step in steps]
         if variable.is_positive:
-            yield Kind.EXTREME, "0", [*_STEPS]
+            yield Kind.EXTREME, "0", steps
         else:
-            yield Kind.EXTREME, "-infinity", [-1 / step for step in _STEPS]
+            yield Kind.EXTREME, "-infinity", [-1 / step for step in steps]
 
     def _zeros(self, variable: Symbol, base: Point) -> list[mpf]:
         """Return the values of a variable at which the gap is zero, or stationary."""
@@ -199,14 +223,14 @@ class Approach:
         is_wrong = variable.is_positive and any(value <= 0 for value in values)
         if is_wrong or not all(is_allowed(self.claim, point) for point in way):
             return None
-        with mpmath.workdps(_DIGITS):
+        with mpmath.workdps(self.digits):
             try:
                 gaps = [evaluated(self.gap, point) for point in way]
             except Undecided:
                 return None
             if any(mpmath.im(gap) != 0 or gap == 0 or gap * self.sign < 0 for gap in gaps):
                 return None
-            is_vanishing = _order([abs(step) for step in gaps], list(_STEPS)) > _SLOWEST
+            is_vanishing = _order([abs(step) for step in gaps], self.steps) > _SLOWEST
             return Row(way, [abs(gap) for gap in gaps]) if is_vanishing else None
 
     # -------------------------------------------------------------- verdicts
@@ -215,30 +239,49 @@ class Approach:
         self, way: Way, sides: tuple[Expr, Expr], look: LookAtClock
     ) -> tuple[Verdict, str] | None:
         """Return the verdict if one variable moves, or None if there are too few points."""
-        why, seen = "", 0
+        found: dict[bool, list[tuple[Verdict, str]]] = {}
         for row in way.rows:
             look()
-            with mpmath.workdps(_DIGITS):
+            with mpmath.workdps(self.digits):
                 try:
                     both = [[evaluated(side, point) for point in row.points] for side in sides]
                 except Undecided:
                     continue
-                if any(mpmath.im(value) != 0 for values in both for value in values):
-                    continue
-                verdict, why = self._of(both[0], both[1], row.gaps)
-            if verdict != Verdict.NUMERICAL:
-                return verdict, why
-            seen += 1
-        return (Verdict.NUMERICAL, f"{why}, from {seen} points") if seen >= _BASES else None
+                if not any(mpmath.im(value) != 0 for values in both for value in values):
+                    first, last = (row.points[n][way.variable] for n in (0, -1))
+                    judged = self._of(both[0], both[1], row.gaps)
+                    found.setdefault(bool(first > last), []).append(judged)
+        count = sum(map(len, found.values()))
+        if count < _BASES:
+            return None
+        verdict, why = min(map(_common, found.values()), key=lambda each: _FIRST.index(each[0]))
+        return verdict, f"{why}, from {count} points" if verdict == Verdict.NUMERICAL else why
 
     def _of(self, left: list[Value], right: list[Value], gaps: list[Value]) -> tuple[Verdict, str]:
         """Return the verdict for one point from which the limit is approached."""
+        pairs = list(zip(left, right, strict=True))
         if self.claim.meant.order is not None:
-            difference = [one - other for one, other in zip(left, right, strict=True)]
-            return _by_order(difference, gaps, self.claim.meant.order)
+            least = mpf(10) ** (_DIGITS // 2 - self.digits)  # smaller differences are rounding
+            change = [one - other for one, other in pairs]
+            for n, (one, _) in enumerate(pairs):
+                change[n] *= abs(change[n]) > least * abs(one)
+            return _by_order(change, gaps, mpf(self.claim.meant.order))
         if 0 in right:
             return Verdict.UNCHECKED, "the right side vanishes on the way to the limit"
-        return _by_ratio([one / other for one, other in zip(left, right, strict=True)], gaps)
+        return _by_ratio([one / other for one, other in pairs], gaps)
+
+
+def _is_quick(expr: Expr) -> bool:
+    """Whether an expression has values to hundreds of digits in a short time."""
+    known = (*FUNCTIONS, Piecewise)
+    return not expr.has(Integral) and all(each.func in known for each in expr.atoms(Function))
+
+
+def _common(found: list[tuple[Verdict, str]]) -> tuple[Verdict, str]:
+    """Return the verdict that all points on one side give."""
+    if len({verdict for verdict, _ in found}) == 1:
+        return found[0]
+    return Verdict.UNCHECKED, "how the two sides approach each other depends on the point"
 
 
 def _refined(expr: Expr, variable: Symbol, base: Point, zero: mpf) -> mpf | None:
@@ -255,12 +298,20 @@ def _refined(expr: Expr, variable: Symbol, base: Point, zero: mpf) -> mpf | None
     return place if isinstance(place, mpf) else None
 
 
-def _by_order(difference: list[Value], gaps: list[Value], wanted: float) -> tuple[Verdict, str]:
+def _by_order(difference: list[Value], gaps: list[Value], wanted: mpf) -> tuple[Verdict, str]:
     if difference[-1] == 0:
         return Verdict.NUMERICAL, "the difference of the two sides is zero"
-    order = _order(difference, gaps)
-    why = f"the difference is of order {mpmath.nstr(order, 3)} (printed: {wanted:g})"
-    return (Verdict.NUMERICAL if order >= wanted - _SHORT else Verdict.FAILS), why
+    order = mpmath.nstr(_order(difference, gaps), 3)
+    why = f"the difference is of order {order} (printed: {float(wanted):g})"
+    if 0 in difference:
+        return Verdict.UNCHECKED, "the difference of the two sides vanishes on the way to the limit"
+    size = [mpmath.log(abs(each / gap**wanted)) for each, gap in zip(difference, gaps, strict=True)]
+    before, last = size[1] - size[0], size[2] - size[1]
+    if last <= max(_NOISE, _BOUNDED * before):
+        return Verdict.NUMERICAL, why
+    if before > _NOISE and last >= _UNBOUNDED * before:
+        return Verdict.FAILS, f"{why}: over that power of the distance, it grows without bound"
+    return Verdict.UNCHECKED, f"{why}, but it is not clear whether it decreases in proportion"
 
 
 def _by_ratio(ratios: list[Value], gaps: list[Value]) -> tuple[Verdict, str]:
@@ -274,8 +325,12 @@ def _by_ratio(ratios: list[Value], gaps: list[Value]) -> tuple[Verdict, str]:
         return Verdict.NUMERICAL, why
     if min(orders) > _SLOWEST or max(orders) < -_SLOWEST:
         limit = "0" if orders[0] > 0 else "infinity"
-    elif abs(ratios[-1] - ratios[-2]) <= _SETTLES * abs(ratios[-2] - ratios[-3]):
+    elif abs(ratios[-1] - ratios[-2]) <= max(
+        _SETTLES * abs(ratios[-2] - ratios[-3]), _NOISE * abs(ratios[-1])
+    ):
         limit = mpmath.nstr(ratios[-1], 8)
+        if abs(off := ratios[-1] - 1) < _CLOSE:
+            limit = f"1 {'+' if off > 0 else '-'} {mpmath.nstr(abs(off), 3)}"
     else:
         why = "the ratio left/right converges too slowly for its limit to be identified"
         return Verdict.UNCHECKED, why

@@ -164,4 +164,4 @@ def _attempted(claim: Claim, work: Callable[[LookAtClock], Result]) -> tuple[Res
     except RecursionError:
         return None, "stopped because an expression is nested too deeply"
     except Exception as error:  # an error in SymPy must not stop the other claims
-        return None, f"stopped by {type(error).__name__}: {error}"
+        return None, f"stopped by an error in the algebra ({type(error).__name__})"

@@ -36,7 +36,7 @@ def vanishes(expr: Expr, ranges: Mapping[Symbol, Range]) -> str:
 
     ranges: the range of every variable.
     """
-    if _is_too_long(expr):
+    if is_too_long(expr):
         return ""
     if _is_zero(expr):
         return "the difference of the two sides is zero"
@@ -53,16 +53,17 @@ def vanishes(expr: Expr, ranges: Mapping[Symbol, Range]) -> str:
 def vanishes_at(expr: Expr, point: Mapping[Symbol, Rational]) -> bool:
     """Whether `expr` is shown to be zero at one exact point."""
     placed = expr.xreplace(dict(point))
-    return not _is_too_long(placed) and _is_zero(placed)
+    return not is_too_long(placed) and _is_zero(placed)
 
 
 def constant(expr: Expr) -> Expr | None:
     """Return the nonzero number that `expr` is shown to equal, or None."""
-    number = None if _is_too_long(expr) else _reduced(expr)
+    number = None if is_too_long(expr) else _reduced(expr)
     return number if number is not None and number.is_number and number.is_nonzero else None
 
 
-def _is_too_long(expr: Expr) -> bool:
+def is_too_long(expr: Expr) -> bool:
+    """Whether an expression is too long for exact steps, or contains an integral."""
     if expr.has(sp.Integral) or sp.count_ops(expr) > _LONGEST or terms(expr) > _MOST_TERMS:
         return True
     angles = [call.args[0] for call in expr.atoms(*_OF_ANGLES)]  # sin(n*x) has n terms

@@ -83,7 +83,7 @@ FILES = {
     "empty": "",
     "a large file": claim("a = a", "says = '" + "x" * 250_000 + "'"),
     "conventions of code": claim(
-        "a = b", "conventions = [{ what = 'x', symbols = { a = 'exec(1)' }, contradicts = 'y' }]"
+        "a = b", "conventions = [{ what = 'x', symbols = { a = 'exec(1)' } }]"
     ),
 }
 

@@ -152,7 +152,7 @@ def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, true: str, fa
 
 
 def test_how_far_was_looked_is_told(tmp_path: Path) -> None:
-    told = evidence(judged(tmp_path, "a*b < a*b + a"))
+    told = evidence(judged(tmp_path, "a*b + a = a*(b + 1)"))
     assert "points (a from " in told
     low, high = (float(n) for n in told.partition("a from ")[2].split(";")[0].split(" to "))
     assert low < 1e-3

@@ -41,9 +41,27 @@ c = { unit = "m" }
 P = "load(a, c)"
 alpha = "tilt(a, c)"
 """
+SIGNED = """
+[variables]
+v = { low = -3, high = 3 }
+y = { low = -3, high = 3 }
+t = { low = 0, high = 100 }
+"""
+STEEL = """
+body = "hertz"
+[variables]
+a = { low = 0.001, high = 0.002 }
+R = { low = 0.1, high = 0.2 }
+E_star = { low = 1e5, high = 2e5 }
+x = { low = -0.001, high = 0.001 }
+[symbols]
+P = "load(a, a)"
+p = "pressure(x, a, a)"
+"""
 CIRCULAR = HERTZ.replace('"2*P/(pi*a)"', '"3*load(a, a)/(2*pi*a)"')
 AS_Q = 'as = "Q -> 0"\norder = 1'
 TILT = 'as = "alpha -> 0"'
+N_0 = 'as = "n -> 0"'
 
 # By hand: Q = f P (1 - k**2), so that k -> 1 as Q -> 0, and (a - c)/a = 1 - k ~ Q/(2 f P); p_0 is
 # E* a/(2 R).  The load of a wedge is E* phi sqrt(a c), and a -> c as its tilt vanishes.
@@ -74,6 +92,27 @@ CASES = [
     (FREE, "d + d*log(d) = d", 'as = "d -> 0"\norder = 1', "fails"),
     (FREE, "d + d**2*log(d) = d", 'as = "d -> 0"\norder = 1', "numerical"),
     (FREE, "sin(1/d) + 2 ~ 2", 'as = "d -> 0"', "unchecked"),
+    (FREE, "d*(2 + sin(1/d)) = 0", 'as = "d -> 0"\norder = 1', "unchecked"),
+    (FREE, "abs(x) = x", 'as = "x -> 0"\norder = 2', "fails"),  # from below
+    # how near to the limit, and how precisely, the sides are compared
+    (FREE, "n ~ n/sqrt(2)", N_0, "fails"),
+    (FREE, "n ~ 0.7071067811865475*n", N_0, "fails"),
+    (FREE, "n ~ n*(1 + 10**(-30))", N_0, "fails"),
+    (HERTZ, "(a - c)/a ~ Q/(sqrt(2)*f*P)", 'as = "Q -> 0"', "fails"),
+    (FREE, "n/(n + 10**(-20)) ~ 1", N_0, "fails"),
+    (FREE, "n/(n + 10**(-20)) = 0", f"{N_0}\norder = 1", "numerical"),
+    (FREE, "2*n + 10**(-25)*sqrt(n) = 0", f"{N_0}\norder = 1", "fails"),
+    (FREE, "2*n + 10**(-30)*sqrt(n) = 0", f"{N_0}\norder = 1", "unchecked"),
+    (FREE, "n + n**0.999/1000 = 0", f"{N_0}\norder = 1", "fails"),
+    (FREE, "n + n**1.001/1000 = 0", f"{N_0}\norder = 1", "numerical"),
+    (FREE, "n*(1 - 1/log(n)) = 0", f"{N_0}\norder = 1", "numerical"),
+    (FREE, "sin(n) = n - n**3/6", f"{N_0}\norder = 5", "numerical"),
+    (FREE, "sin(n) = n - n**3/6", f"{N_0}\norder = 5.001", "fails"),
+    (FREE, "elliptic_k(1 - n) = log(4) - log(n)/2", f"{N_0}\norder = 0.9", "numerical"),
+    (FREE, "elliptic_k(1 - n) = log(4) - log(n)/2", f"{N_0}\norder = 1", "fails"),
+    (FREE, "integral(sin(s), s, 0, n) = n**2/2", f"{N_0}\norder = 4", "numerical"),
+    (FREE, "integral(sin(s), s, 0, n) = n**2/2", f"{N_0}\norder = 5", "fails"),
+    (FREE, "k*(0.9 - k) ~ 0.9*(0.9 - k)", 'as = "k -> 0.9"', "numerical"),
     # what is true by the definitions alone
     (CIRCULAR, "p_0 = 3*P/(2*pi*a)", "", "by definition"),
     (CIRCULAR, "P = 2*pi*a*p_0/3", "", "by definition"),
@@ -86,9 +125,57 @@ CASES = [
     # inequalities, and what lies beyond the points
     (FREE, "k**2 < k", "", "holds"),
     (FREE, "k*m < 1", "", "holds"),
-    (FREE, "k*m <= 0.9", "", "numerical"),  # equal in a corner
+    (FREE, "k*m <= 0.9", "", "holds"),  # equal in a corner
     (FREE, "k*m < 0.9", "", "unchecked"),
-    (FREE, "Piecewise((1, k < 0.2), (2, True)) < 3", "", "numerical"),
+    (FREE, "w > 0.5", "", "unchecked"),
+    (FREE, "m > 0", "", "unchecked"),
+    (FREE, "m >= 0", "", "holds"),
+    (FREE, "1/(k - 0.4321) > -10**9", "", "fails"),
+    (FREE, "1/(k - 0.4321) < 10**30", "", "fails"),
+    (FREE, "1/(k - m) < 10**9", "", "fails"),
+    (FREE, "1/(k - 0.4321)**2 > 1", "", "holds"),
+    (FREE, "log(abs(k - 0.3)) > -40", "", "fails"),
+    (FREE, "(k - 0.54321)**2 > 10**(-20)", "", "fails"),
+    (FREE, "(k - 0.54321)**2 > -10**(-20)", "", "holds"),
+    (FREE, "(k - 0.54321)**2 > 0", "", "unchecked"),
+    (FREE, "(a - d)**2 + (a - w)**2 > 0", "", "unchecked"),
+    (FREE, "a**2 + d**2 >= 2*a*d", "", "holds"),
+    (FREE, "d**2 < a**2", 'require = "d < a"', "holds"),
+    (FREE, "k/(1 + k) < 0.4736842105", "", "fails"),  # 9/19 = 0.47368421052... at the end
+    (FREE, "k/(1 + k) < 0.4736842106", "", "holds"),
+    (FREE, "n*exp(-n) < 0.37", "ranges = { n = [0, 20] }", "holds"),  # 1/e = 0.3679
+    (FREE, "abs(1 - sqrt(1 - k**2)) < 1", "", "holds"),
+    (FREE, "elliptic_k(k) > elliptic_e(k)", "", "holds"),
+    (FREE, "integral(s**k, s, 0, 1) > 0.5", "", "unchecked"),
+    (FREE, "Piecewise((5, abs(k - 0.32123) < 10**(-12)), (2, True)) < 3", "", "fails"),
+    (FREE, "Max(0, sin(10**6*k) - 0.9999999) <= 0", "", "fails"),
+    (SIGNED, "Min(v, y) < Max(v, y)", "", "unchecked"),
+    (SIGNED, "abs(v + y) < abs(v) + abs(y)", "", "fails"),
+    (FREE, "1/(k - 0.3) > 0", 'require = "k > 0.3"', "holds"),
+    (FREE, "1/(k - 0.3) > 0", 'require = "k > 0.29"', "fails"),
+    (FREE, "a < 10**7", "", "unchecked"),
+    (HERTZ, "P < 10**20*E_star*a", "", "unchecked"),  # false if a is large enough
+    (HERTZ, "P < 10**20*E_star*(R + a)*a/R", "", "numerical"),
+    (STEEL, "p < E_star*a/(2*R)", "", "unchecked"),  # equal at x = 0
+    # roots, inverse functions, kinks and periods
+    (SIGNED, "sqrt(v**2) = v", "", "fails"),
+    (SIGNED, "sqrt((v - 3)*(y - 3)) = sqrt(v - 3)*sqrt(y - 3)", "", "fails"),
+    (SIGNED, "atan(v) + atan(y) = atan((v + y)/(1 - v*y))", "", "fails"),
+    (SIGNED, "acos(cos(v)) = abs(v)", "", "numerical"),
+    (SIGNED, "Max(v, y) = (v + y + abs(v - y))/2", "", "numerical"),
+    (SIGNED, "Max(v, -2.99999999) = v", "", "fails"),
+    (SIGNED, "cos(2*pi*10**6*t) = 1", "", "fails"),
+    (FREE, "integral(sin(1000*pi*s)**2, s, 0, 1) = 0", "", "fails"),
+    (FREE, "diff(integral(k*s**2, s, 0, k), k) = k**3", "", "fails"),
+    (STEEL, "P = pi*E_star*a**2/(4*R) + 10**(-25)", "", "fails"),
+    # prescribed cases
+    (FREE, "pi*a**2 = 12.57", "cases = [{ a = 2 }]", "numerical"),  # 12.566
+    (FREE, "pi*a**2 = 12.58", "cases = [{ a = 2 }]", "fails"),
+    (FREE, "pi*a**2 = 12.57", "cases = [{ a = 2 }, { a = 3 }]", "fails"),
+    (FREE, "a**2 = a", "cases = [{ a = 1 }]", "unchecked"),
+    (FREE, "a**2 > k", "cases = [{ a = 1, k = 0.5 }]", "unchecked"),
+    (FREE, "a*(a + 1) = a**2 + a", "cases = [{ a = 1 }]", "holds"),
+    (FREE, "Piecewise((1, k < 0.2), (2, True)) < 3", "", "holds"),
     (FREE, "Max(0, a - 10**7) = 0", "", "unchecked"),
     (FREE, "Max(0, k - 10**7) = 0", "", "numerical"),
     (FREE, "tanh(10**9*a) = 1", "", "unchecked"),
@@ -121,6 +208,8 @@ def test_the_verdict_on_a_limit_says_what_moves(tmp_path: Path) -> None:
         ("load(c, c) = k**2*P", "the body"),
         ("P > 0", "the body"),
         ("sqrt(P**2) = P", "the body"),
+        ("P < 10**20*E_star*(R + a)*a/R", "the body"),
+        ("P**2 >= 0", "your definitions"),
         ("P = load(2*a/2, a)", "your definitions"),
         ("c**2 = a**2*k**2", "your definitions"),
         ("p_0 = 3*P/(2*pi*a)", "the body"),  # false
@@ -131,6 +220,22 @@ def test_the_verdict_on_a_limit_says_what_moves(tmp_path: Path) -> None:
 def test_a_verdict_says_what_it_rests_on(tmp_path: Path, printed: str, rests_on: str) -> None:
     (it,) = asking.told(tmp_path, HERTZ + asking.claim(printed))
     assert it["rests_on"] == rests_on
+
+
+@pytest.mark.parametrize(
+    ("printed", "verdict", "rests_on"),
+    [
+        ("P = pi*E_star*a**2/(2*R)", "holds", "the body and your definitions"),
+        ("P = pi*E_star*a**2/(4*R)", "fails", "the body and your definitions"),
+        ("c**2*P = a**2*load(c, c)", "holds", "the body"),  # R is not used
+    ],
+)
+def test_a_parameter_may_be_defined_by_itself(
+    tmp_path: Path, printed: str, verdict: str, rests_on: str
+) -> None:
+    claim = asking.claim(printed, 'symbols = { R = "2*R" }')  # R is the diameter
+    (it,) = asking.told(tmp_path, HERTZ + claim)
+    assert (it["verdict"], it["rests_on"]) == (verdict, rests_on)
 
 
 GIVEN = """

@@ -90,8 +90,7 @@ def test_reports(tmp_path: Path, options: tuple[str, ...], parts: tuple[str, ...
 def test_a_convention_of_one_s_own(tmp_path: Path) -> None:
     text = HEAD + (
         '[[claims]]\nlabel = "area"\nprinted = "-A = pi*R**2"\nexpected = "convention"\n'
-        'conventions = [{ what = "area downward", symbols = { A = "-pi*r**2" }, '
-        'contradicts = "eq. (0)" }]\n'
+        'conventions = [{ what = "area downward", symbols = { A = "-pi*r**2" } }]\n'
     )
     done = run(written(tmp_path, text))
     assert done.exit_code == 0, done.output
@@ -209,8 +208,8 @@ BAD_CLAIMS = {
     "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "expected must be one of holds, "),
     "conventions": (CIRCLE + "conventions = 3\n", "conventions must be a list"),
     "key of a convention": (
-        CIRCLE + 'conventions = [{ what = "w", contradicts = "c", symbol = 1 }]\n',
-        "'symbol'",
+        CIRCLE + 'conventions = [{ what = "w", contradicts = "eq. (0)" }]\n',
+        "the key 'contradicts' is unknown: leave it out of conventions",
     ),
     "likeness": (CIRCLE.replace("A = pi", "A ~ pi"), "~ cannot be checked"),
     "unread LaTeX": (CIRCLE.replace("printed", "latex"), "p is neither"),
@@ -222,6 +221,10 @@ BAD_CLAIMS = {
     "body": (CIRCLE + 'body = "sphere"\n', "not in the library"),
     "own symbol": (CIRCLE + "symbols = { R = 'r*q' }\n", "the symbol R has no meaning in this"),
     "require": (CIRCLE + "require = 'q > 0'\n", "require: the claims file does not define q"),
+    "an equation for a condition": (
+        CIRCLE + "require = 'k = 1/2'\n",
+        "require: 'k = 1/2' is an equation and not a condition: use `symbols`",
+    ),
     "limit": (CIRCLE + "as = 'r - 0'\n", "as: this is not a limit"),
     "order": (CIRCLE + "order = 2\n", "`as` is missing: give `order` as a number"),
     "given a table": (CIRCLE + "given = [{ a = 1 }]\n", "given[0] must be a text"),
@@ -298,7 +301,7 @@ c = "right edge"
 [symbols]
 A = "a"
 """
-TURNED = "conventions = [{ what = 'right', symbols = { A = 'c' }, contradicts = 'p' }]"
+TURNED = "conventions = [{ what = 'right', symbols = { A = 'c' } }]"
 UNIT = "[variables]\nx = { low = 0, high = 1 }\n"
 BODIES = """
 body = "hertz"
@@ -348,7 +351,7 @@ VERDICTS = [
     (f"{TWO}[latex]\nT = 'tau_1'\n", SPELLED.format("tau_1"), "numerical", ""),
     # the first of these never ends, and the second raises an error inside SymPy
     (SHORT, "limit(integral(exp(-s**2*a)/(s + 1)**a, s, a, b), a, oo) = b", "unchecked", "1 s"),
-    (SHORT, "limit(Min(1, x), x, a) = b", "unchecked", "not be read"),
+    (SHORT, "limit(Min(1, x), x, a) = b", "unchecked", "no value of limit(Min(1, x), x, a)"),
     (WEDGE, "load(A, c) = E_star*phi*sqrt(a*c)", "holds", ""),
     (UNIT, "abs(x) = x", "numerical", ""),  # a place may have a range
     (BODIES, f"body = 'none'\n{RADIUS}printed = '1/R = 1/R_1 + 1/R_2'", "by definition", ""),
