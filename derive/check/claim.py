@@ -145,7 +145,11 @@ class Claim:
     """One part of a displayed equation, or one statement of the text.
 
     entry      what the file says of it; `place` and `says` are never empty
+    meant      what it stands for; if the claim is unchecked, at most its sides as they were read
     text       the equation as text, which keeps its form; if it is given in LaTeX, its reading
+    at         its file and line, such as claims.toml:42
+    symbols    the definitions of the symbols that it uses, as in the file; empty if there is none
+    to_accept  the entry by which the file accepts its reading; empty if it does so or has none
     against    what the claim is compared with, in words
     units      a description of the units that do not fit; empty if they fit
     unchecked  the reason why the claim cannot be decided; empty if it can
@@ -155,6 +159,9 @@ class Claim:
     entry: Entry
     meant: AsMeant = AsMeant()
     text: str = ""
+    at: str = ""
+    symbols: Mapping[str, str] = field(default_factory=dict)
+    to_accept: str = ""
     against: str = ""
     units: str = ""
     unchecked: str = ""

@@ -6,6 +6,7 @@ Out:  the Claim, which is unchecked with the reason if an entry is wrong or a me
 
 import re
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -70,6 +71,7 @@ class ClaimReader:
         claim = Claim(
             with_entries(entry, place=where, says=says),
             text=entry.understood or entry.printed,
+            at=f"{Path(place.file).name}:{place.line}" if place.line else "",
             seconds=limit.seconds,
         )
         if wrong.errors:
@@ -108,7 +110,7 @@ class ClaimReader:
         """Return a claim; raise UserError if one of its entries is wrong."""
         entry, names = claim.entry, context.names(place)
         if entry.unchecked:
-            return replace(claim, unchecked=entry.unchecked)
+            return _unjudged(claim, context, names, entry.unchecked)
         is_one = bool(entry.printed) != bool(entry.latex)
         place.demand(is_one, "`printed` and `latex` exclude each other", "give exactly one of them")
         try:
@@ -116,7 +118,9 @@ class ClaimReader:
                 reading = open_reading(number, entry, place, names, self.declared.spellings)
                 if reading is not None:
                     self.readings.append(reading)
-                    return replace(claim, text=reading.understood, unchecked=reading.remedy)
+                    why = "; ".join(filter(None, (reading.remedy, reading.why)))
+                    claim = replace(claim, text=reading.understood, to_accept=reading.to_accept)
+                    return _unjudged(claim, context, names, why)
             left, relation, right = equation(claim.text, names, may_be_rough(entry, claim.text))
         except UnknownName as error:
             why = _lacking(unknown(error.given, names) or ["oo"], context.meant)
@@ -131,7 +135,7 @@ class ClaimReader:
         through = _through(entry, left, names, place)
         sides = [side.xreplace({left: right}) for side in through] or [left, right]
         if lacking := [n for n in context.symbols if Symbol(n) in free(*sides) & undefined]:
-            return replace(claim, unchecked=_lacking(lacking, context.meant))
+            return _unjudged(claim, context, names, _lacking(lacking, context.meant))
         stated = _Equation(
             self.declared,
             entry,
@@ -145,7 +149,8 @@ class ClaimReader:
             through,
             tuple(self._made[label] for label in entry.given or ()),
         )
-        return replace(claim, meant=stated.meant(), against=stated.against())
+        symbols = context.definitions(left, right, *through)
+        return replace(claim, meant=stated.meant(), symbols=symbols, against=stated.against())
 
     def _given(self, labels: Iterable[str], place: Place) -> dict[str, str]:
         """Return the formulas of the symbols that earlier claims define."""
@@ -223,10 +228,9 @@ class _Equation:
 
     def against(self) -> str:
         """Describe what the claim is compared with."""
-        sheet, claims = self.context.sheet, ", ".join(self.entry.given or ())
+        sheet = self.context.sheet
         told = f" and the formula sheet of {sheet.geometry.name}" if sheet else ""
-        given = f", given {claims}" if claims else ""
-        return self.entry.against or f"the formulas of {self.place.file}{told}{given}"
+        return self.entry.against or f"the formulas of {Path(self.place.file).name}{told}"
 
     def _names(self, key: str = "") -> Names:
         """Return the names that an entry may hold: those with a meaning."""
@@ -388,6 +392,16 @@ class _Equation:
                 given = as_text(given)
                 why = f"{name} is defined as {given}, but formulas of the body also contain {name}"
                 raise self.place.bad(why, f"use {name} in the other symbols instead")
+
+
+def _unjudged(claim: Claim, context: Context, names: Names, why: str) -> Claim:
+    """Return an unchecked claim with its equation as it was read, if that is possible."""
+    with suppress(UserError):
+        left, relation, right = equation(claim.text, names, rough=True)
+        calls = {call: Symbol(as_text(call)) for call in calls_in(left, right)}
+        meant = AsMeant(left.xreplace(calls), right.xreplace(calls), relation)
+        claim = replace(claim, meant=meant, symbols=context.definitions(left, right))
+    return replace(claim, unchecked=why)
 
 
 def _through(entry: Entry, left: Expr, names: Names, place: Place) -> tuple[Expr, ...]:

@@ -142,7 +142,13 @@ class Context:
         as_written = {**self.meant.as_written, **written}
         in_variables = {**self.meant.in_variables, **found}
         meant = replace(self.meant, as_written=as_written, in_variables=in_variables)
-        return replace(self, meant=meant)
+        return replace(self, meant=meant, symbols={**self.symbols, **formulas})
+
+    def definitions(self, *exprs: Expr) -> dict[str, str]:
+        """Return the definitions of the symbols in expressions, and of those that they use."""
+        names = {each.name for each in free(*exprs)}
+        names = names.union(*(self.meant.uses.get(name, ()) for name in names))
+        return {name: text for name, text in self.symbols.items() if name in names}
 
     def substitute(self, expr: Any) -> Any:
         """Replace the calls of the body's formulas by the proven expressions."""

@@ -18,7 +18,13 @@ from derive.check.claim import Paper, Verdict
 from derive.check.draw import along, has_integral, is_allowed
 from derive.check.judge import Sides
 from derive.check.verdict import Finding
+from derive.sheet.notation import latex_name
+from derive.sheet.page import templates
 
+_HIDDEN = re.compile(r"\\(?:label|tag\*?)\s*\{[^{}]*\}|\\(?:nonumber|notag)(?![A-Za-z])")
+"""Parts of a display that are not part of the formula."""
+_INNER = re.compile(r"\\begin\b.*\\end\s*\{\w+\*?\}", re.DOTALL)
+"""An environment inside a display."""
 _SAMPLES = 40
 """Number of points of a curve."""
 
@@ -49,27 +55,21 @@ _ESCAPES: dict[str, Callable[[str], str]] = {
 
 @cache
 def _template(name: str) -> jinja2.Template:
-    templates = jinja2.Environment(
-        loader=jinja2.PackageLoader("derive.check"),
-        autoescape=True,
-        finalize=lambda text: _in_one_line(text, _ESCAPES[name]),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    templates.filters |= {
+    escaped = partial(_in_one_line, escaped=_ESCAPES[name])
+    made = templates("derive.check", "check", finalize=escaped, keep_trailing_newline=True)
+    made.filters |= {
         "code": _as_code,
         "curves": _curves,
+        "symbol": latex_name,
         "typeset": _typeset,
         "verbatim": Markup,
     }
-    return templates.get_template(name)
+    return made.get_template(name)
 
 
 def _document(name: str, paper: Paper, findings: Sequence[Finding]) -> str:
-    """Return all verdicts, the signs section by section, and the errata or every claim."""
-    return _template(name).render(paper=paper, findings=findings, report=report)
+    """Return the coverage, the meanings used, all verdicts, and the claims, failures first."""
+    return _template(name).render(paper=paper, findings=report.in_order(findings), report=report)
 
 
 FORMS: dict[str, Callable[[Paper, Sequence[Finding]], str]] = {
@@ -81,14 +81,19 @@ FORMS: dict[str, Callable[[Paper, Sequence[Finding]], str]] = {
 """The functions that write all findings as text."""
 
 
-def _typeset(latex: str) -> Markup:
-    """Return LaTeX of our own as MathML, or as code if it cannot be typeset."""
+def _typeset(latex: str, display: str = "block") -> Markup:
+    """Return LaTeX as MathML, or nothing if it cannot be typeset; its text is shown beside it."""
+    if not latex:
+        return Markup()
+    bare = _HIDDEN.sub("", latex)
+    if re.search(r"&|\\\\", _INNER.sub("", bare)):
+        bare = rf"\begin{{aligned}}{bare}\end{{aligned}}"
     try:
         from derive.sheet.mathml import mathml
 
-        return mathml(latex)
+        return mathml(bare, display)
     except Exception:  # there is no converter, or it fails
-        return Markup("<code>{}</code>").format(latex)
+        return Markup()
 
 
 def _curves(finding: Finding) -> Markup | str:

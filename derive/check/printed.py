@@ -36,25 +36,16 @@ class Reading:
         return self.entry.understood if self.entry.accepted else ""
 
     @property
-    def beside(self) -> dict[str, str]:
-        """The entries of the claim that its verdict depends on, as text."""
-        order = "" if self.entry.order is None else f"{self.entry.order:g}"
-        told = {
-            "as": self.entry.approach,
-            "order": order,
-            "require": " and ".join(self.entry.requirements),
-            "given": " and ".join(self.entry.given or ()),
-        }
-        return {key: text for key, text in told.items() if text}
+    def to_accept(self) -> str:
+        """The entry by which the file accepts the reading."""
+        return f'understood = "{self.understood}"' if self.entry.accepted else "accepted = true"
 
     @property
     def remedy(self) -> str:
         """What the file says of the reading, and what the user can do."""
         said = f"accepts {self.accepted}" if self.accepted else "does not accept it"
-        understood = f'understood = "{self.understood}"'
-        by_hand = understood if self.entry.accepted else "accepted = true"
         why = f"the LaTeX was read as {self.understood}, but the file {said}"
-        return f"{why}: use --accept, or write {by_hand}"
+        return f"{why}: use --accept, or write {self.to_accept}"
 
 
 def open_reading(

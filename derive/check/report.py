@@ -1,21 +1,22 @@
 """Say in words what was found: verdicts, evidence, corrections, signs; explain one claim.
 
-Corrected equations are always rendered from their expressions.
+Corrected equations are always rendered from their expressions.  The terminal and all documents
+show the same sections, failures first, and count the same equations.
 """
 
 import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from enum import StrEnum
 from typing import NamedTuple
 
 import mpmath
-from sympy import Expr, Symbol
+from sympy import Expr, Integral, Symbol
 
-from derive.check.claim import AsMeant, Claim, Paper, Verdict
+from derive.check.claim import AsMeant, Basis, Claim, Paper, Verdict
 from derive.check.correction import Repair
 from derive.check.verdict import Finding
-from derive.reading.relation import Relation
 from derive.sheet.notation import latex_of, text_of
 
 _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
@@ -44,12 +45,24 @@ def corrected(finding: Finding) -> str | None:
 
 
 def _text(equation: AsMeant | Repair) -> str:
-    return f"{text_of(equation.left)} {equation.relation} {text_of(equation.right)}"
+    return f"{_typed(equation.left)} {equation.relation} {_typed(equation.right)}"
 
 
-def latex_of_equation(equation: AsMeant | Repair, relation: Relation) -> str:
-    """Return a printed or a corrected equation with the given relation, in LaTeX."""
-    sign = _SIGNS.get(relation, relation)
+def _typed(expr: Expr) -> str:
+    """Return `expr` as a user would type it."""
+    return text_of(expr.replace(lambda node: isinstance(node, Integral), _integral))
+
+
+def _integral(over: Integral) -> Symbol:
+    told = _typed(over.function)
+    for along, *ends in over.limits:
+        told = f"integral({', '.join((told, str(along), *map(_typed, ends)))})"
+    return Symbol(told)
+
+
+def latex_of_equation(equation: AsMeant | Repair) -> str:
+    """Return a printed or a corrected equation in LaTeX."""
+    sign = _SIGNS.get(equation.relation, equation.relation)
     return rf"{_of(equation.left)} {sign} {_of(equation.right)}"
 
 
@@ -84,20 +97,21 @@ def explanation(finding: Finding) -> list[Told]:
     """Return headings with their lines: what was compared, how, and with which result."""
     claim, repair = finding.claim, finding.repair
     entry, meant = claim.entry, claim.meant
-    latex = "" if claim.unchecked else latex_of_equation(meant, meant.relation)
-    sides = (*meant.compared, meant.left, meant.right)
-    held = set().union(*(side.free_symbols for side in sides))
-    symbols = [f"{s} = {text_of(expr)}" for s, expr in meant.meaning.items() if s in held]
+    latex = "" if meant == AsMeant() else latex_of_equation(meant)
+    text = printed(claim) or ("not read" if entry.latex else "no equation")
     in_vain = "none of them is true" if finding.tried and repair is None else ""
     search = [line for part in _search(finding) for line in lines_of(part)]
     told = [
-        Told("description", [entry.says]),
+        Told("description", [entry.says] if entry.says not in (entry.label, claim.name) else []),
         Told("place", [entry.place] if entry.place != claim.name else []),
-        Told("LaTeX", [" ".join(entry.latex.split())]),
-        Told("printed", [printed(claim) or "no equation"], latex),
+        Told("source", [" ".join(entry.latex.split())], entry.latex),
+        Told("read as" if entry.latex else "printed", [text], latex),
+        Told("corrected", [corrected(finding) or ""], latex_of_equation(repair) if repair else ""),
+        *(Told(key, [text]) for key, text in entry.beside.items()),
+        Told("to accept", [f"{claim.at}: {claim.to_accept}"] if claim.to_accept else []),
         Told("compared with", [claim.against]),
         Told("steps", entry.steps),
-        Told("symbols", symbols),
+        Told("symbols", _meanings(claim)),
         Told("verdict", [str(finding.verdict), *lines_of(finding.judged.why), finding.partly]),
         Told("rests on", [finding.rests_on]),
         Told("units", [claim.units]),
@@ -105,10 +119,20 @@ def explanation(finding: Finding) -> list[Told]:
         Told("search", [*search, in_vain]),
         Told("consequence", claim.consequences),
     ]
-    if repair is not None:
-        latex = latex_of_equation(repair, repair.relation)
-        told.insert(-2, Told("corrected", [_text(repair)], latex))
     return [each._replace(lines=lines) for each in told if (lines := [*filter(None, each.lines)])]
+
+
+def _meanings(claim: Claim) -> list[str]:
+    """Return the symbols of a claim with their definitions, and these in terms of variables."""
+    meant = claim.meant
+    sides = (*meant.compared, meant.left, meant.right)
+    held = set().union(*(side.free_symbols for side in sides))
+    found: dict[str, str] = {s.name: _typed(e) for s, e in meant.meaning.items() if s in held}
+    told = list[str]()
+    for name in dict.fromkeys([*found, *claim.symbols]):
+        both = dict.fromkeys(filter(None, (claim.symbols.get(name), found.get(name))))
+        told.append(" = ".join((name, *both)) if both else f"{name} has no meaning yet")
+    return told
 
 
 def evidence(finding: Finding) -> str:
@@ -166,6 +190,68 @@ def numbers(finding: Finding) -> list[tuple[str, str, str]]:
 # ------------------------------------------------------------------ all claims
 
 
+class Coverage(StrEnum):
+    """How far a claim is covered, in the order of the reports: the worst first."""
+
+    FAILED = "failed"
+    CONVENTION = "true with another convention"
+    UNSOUND = "held from claims that are not shown to be true"
+    UNCHECKED = "unchecked"
+    TO_ACCEPT = "to be accepted"
+    NOT_READ = "not read"
+    BODY = f"held from {Basis.BODY}"
+    DEFINITIONS = f"held from {Basis.DEFINITIONS}"
+    GIVEN = f"held from {Basis.GIVEN} claims"
+    MATHEMATICS = f"held from {Basis.MATHEMATICS}"
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the claim is shown to be true."""
+        return self in (self.BODY, self.DEFINITIONS, self.GIVEN, self.MATHEMATICS)
+
+
+def covered(finding: Finding) -> Coverage:
+    """Return how far one claim is covered."""
+    claim = finding.claim
+    if finding.verdict == Verdict.FAILS:
+        return Coverage.FAILED
+    if finding.verdict == Verdict.CONVENTION:
+        return Coverage.CONVENTION
+    if finding.unsound:
+        return Coverage.UNSOUND
+    if finding.verdict != Verdict.UNCHECKED:
+        return Coverage[(finding.basis or claim.meant.basis).name]
+    if claim.to_accept:
+        return Coverage.TO_ACCEPT
+    return Coverage.NOT_READ if claim.entry.latex and not claim.text else Coverage.UNCHECKED
+
+
+def in_order(findings: Iterable[Finding]) -> list[Finding]:
+    """Return the findings in the order of the reports: failures first."""
+    order = list(Coverage)
+    return sorted(findings, key=lambda finding: order.index(covered(finding)))
+
+
+def coverage(findings: Iterable[Finding]) -> str:
+    """Return how many equations are covered, and how far; the worst of its claims counts.
+
+    Claims of one equation have the same number or the same LaTeX.
+    """
+    worst = dict[str, Coverage]()
+    for finding in in_order(findings):
+        entry = finding.claim.entry
+        worst.setdefault(entry.equation or entry.latex or entry.label, covered(finding))
+    held = sorted(Counter(worst.values()).items(), key=lambda item: not item[0].is_held)
+    counts = ", ".join(f"{count} {found}" for found, count in held)
+    return f"{len(worst)} {'equation' if len(worst) == 1 else 'equations'}: {counts}"
+
+
+def definitions(findings: Iterable[Finding]) -> list[tuple[str, str, int]]:
+    """Return each symbol that is used, its definition, and the number of claims that use it so."""
+    used = Counter(each for finding in findings for each in finding.claim.symbols.items())
+    return [(name, text or "no meaning yet", n) for (name, text), n in sorted(used.items())]
+
+
 def summary(findings: Sequence[Finding]) -> str:
     """Return the number of claims for each verdict, in words: "3 claims: 1 holds, 2 fail"."""
     totals = Counter(finding.verdict for finding in findings)
@@ -220,6 +306,8 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
             "verdict": str(finding.verdict),
             "expected": finding.as_expected,
             "rests_on": finding.basis,
+            "coverage": covered(finding),
+            "symbols": finding.claim.symbols,
             "given": {each.claim.entry.label: str(each.verdict) for each in finding.given},
             "printed": printed(finding.claim),
             "corrected": corrected(finding),

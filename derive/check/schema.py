@@ -238,6 +238,18 @@ class Entry(Labelled, frozen=True, forbid_unknown_fields=True):
         """The conditions of `require`."""
         return [self.require] if isinstance(self.require, str) else self.require
 
+    @property
+    def beside(self) -> dict[str, str]:
+        """The entries of the claim that its verdict depends on, as text."""
+        order = "" if self.order is None else f"{self.order:g}"
+        told = {
+            "as": self.approach,
+            "order": order,
+            "require": " and ".join(self.requirements),
+            "given": " and ".join(self.given or ()),
+        }
+        return {key: text for key, text in told.items() if text}
+
 
 class ClaimsFile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A claims file; the entries of its tables are decoded one by one."""

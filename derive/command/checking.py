@@ -49,7 +49,7 @@ def accept_readings(file: Path | None, label: str | None) -> None:
         click.echo(f"  understood  {reading.understood}")
         if reading.accepted:
             click.echo(f"  in the file {reading.accepted}")
-        for key, entry in reading.beside.items():
+        for key, entry in reading.entry.beside.items():
             click.echo(f"  {key:<11} {entry}")
         if reading.why:
             click.echo(f"  unchecked   {reading.why}")

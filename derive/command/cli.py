@@ -321,8 +321,13 @@ def check(
         given = "" if file is None else f"{typed(file)} "
         click.echo(f"More: {command()} check {given}--explain CLAIM, or --html PAGE for all claims")
     wrong = [finding for finding in findings if not finding.as_expected]
+    names = [finding.claim.name for finding in wrong if not finding.claim.to_accept]
+    if names:
+        complain("Not as expected", "; ".join(names))
+    if left := len(wrong) - len(names):
+        how = "accept them with --accept; --html PAGE shows them beside their source"
+        complain("Readings to be accepted", f"{left}: {how}")
     if wrong:
-        complain("Not as expected", "; ".join(finding.claim.name for finding in wrong))
         sys.exit(FELL_SHORT)
 
 

@@ -111,10 +111,11 @@ _VERDICTS = {
 
 
 def checked(findings: "Sequence[Finding]") -> Group:
-    """The verdict on every claim, and a remark on each claim that is not true as printed."""
+    """The verdict on every claim, failures first, and a remark on each that is not true."""
     from derive.check import report
 
     table = Table("claim", Column("verdict", no_wrap=True), "rests on", "description")
+    findings = report.in_order(findings)
     for finding in findings:
         verdict = _verdict_of(finding)
         claim = finding.claim
@@ -127,12 +128,15 @@ def checked(findings: "Sequence[Finding]") -> Group:
         if remark := report.remark(finding):
             line = Text.assemble((finding.claim.name, "cyan"), ": ", _verdict_of(finding), ": ")
             parts.append(line.append(remark))
-    return Group(*parts, Text(report.summary(findings), style="bold"))
+    told = f"{report.summary(findings)}\n{report.coverage(findings)}"
+    return Group(*parts, Text(told, style="bold"))
 
 
 def _verdict_of(finding: "Finding") -> Text:
     verdict = Text(str(finding.verdict), style=_VERDICTS[finding.verdict])
-    return verdict if finding.as_expected else verdict.append(" (unexpected)", style="bold red")
+    if finding.claim.entry.expected and not finding.as_expected:
+        verdict.append(" (not as expected)", style="bold red")
+    return verdict
 
 
 def explained(findings: "Sequence[Finding]") -> Group:

@@ -5,15 +5,14 @@ import io
 from collections.abc import Iterator, Sequence
 from math import floor, isfinite, log10, nan
 
-import jinja2
 import numpy as np
 from markupsafe import Markup
 
 from derive.command.terminal import folded
 from derive.edge.find import SIDES, Findings, FittedEdge
 from derive.edge.table import Step
+from derive.sheet.page import templates
 from derive.sheet.picture import Line, svg
-from derive.sheet.prose import prose
 
 HEAD = ("load step", "edge", "x [mm]", "K_N [MPa/sqrt(mm)]", "L_N [MPa/mm**(3/2)]", "nodes")
 ZONES = (
@@ -131,10 +130,8 @@ def as_page(findings: Findings, steps: Sequence[Step], title: str) -> str:
     """Return an HTML page with a picture of each edge at the end of the half-cycle."""
     last = [e for e in findings.edges if e.step == steps[-1].name and np.isfinite(e.pressure.edge)]
     ends = {zone.side: zone.d for zone in findings.zones}
-    templates = jinja2.Environment(loader=jinja2.PackageLoader("derive.edge"), autoescape=True)
-    templates.trim_blocks = templates.lstrip_blocks = True
-    templates.filters["prose"] = lambda text: Markup(prose(text))
-    return templates.get_template("report.html").render(
+    made = templates("derive.edge", "edge")
+    return made.get_template("report.html").render(
         title=title,
         edge_head=HEAD,
         edges=edge_rows(findings),

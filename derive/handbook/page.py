@@ -15,7 +15,8 @@ from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.mathml import mathml
 from derive.sheet.notation import latex_of
-from derive.sheet.prose import prose, unit
+from derive.sheet.page import templates
+from derive.sheet.prose import unit
 
 SHOWN = 40
 """Number of lines above which the code of a module is collapsed."""
@@ -96,17 +97,10 @@ def _style() -> Markup:
 
 @cache
 def _templates() -> jinja2.Environment:
-    templates = jinja2.Environment(
-        loader=jinja2.PackageLoader("derive.handbook"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    templates.filters |= {
+    made = templates("derive.handbook", "show")
+    made.filters |= {
         "latex": latex_of,
         "mathml": mathml,
-        "prose": lambda text: Markup(prose(text)),
         "unit": lambda text: Markup(unit(text)),
     }
-    return templates
+    return made

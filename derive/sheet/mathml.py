@@ -23,8 +23,17 @@ _RAISED = r'<mrow>\1<mo lspace="0" rspace="0">\2</mo></mrow>'
 """A prime is raised in every font, and would be too small to read as a superscript."""
 
 
-_LEFT = re.compile(r"<m\w>(&(?!#|\w+;)|\\|\$)")
+_LEFT = re.compile(r"<m\w>(&amp;<|\\|\$)")
 """LaTeX that the converter has left as it is."""
+
+_CHARACTER = re.compile(r"&amp;(#x?[0-9A-Fa-f]+;)")
+"""A character as the converter writes it, after the tree was written as text."""
+
+_ALIKE = {"{aligned}": "{split}", r"\nicefrac": r"\frac", r"\dashint": r"\fint"}
+"""LaTeX that the converter does not know, and what it knows of the same meaning."""
+
+_ACTIVE = ("href", "style", "class", "id")
+"""Attributes that LaTeX could set, as by \\href, and that no formula needs."""
 
 
 _WORD = re.compile(r"[A-Za-z_]{2,}")
@@ -40,14 +49,20 @@ _SCRIPTS = ("msub", "msup", "msubsup")
 def mathml(latex: str, display: str = "block") -> Markup:
     """One formula as MathML; `display` is "inline" for a formula within a line of text.
 
+    The LaTeX may come from anybody: its text is escaped, and links and styles are dropped.
+
     Raises ValueError if part of the LaTeX would appear as it is.
     """
-    # the converter does not know `aligned`
-    tree = convert_to_element(latex.replace("{aligned}", "{split}"), display=display)
+    for other, known in _ALIKE.items():
+        latex = latex.replace(other, known)
+    tree = convert_to_element(latex, display=display)
+    for element in tree.iter():
+        for name in _ACTIVE:
+            element.attrib.pop(name, None)
     _join_words(tree)
     _put_spaces(tree)
     _align(tree)
-    formula = unescape(tostring(tree, encoding="unicode"))
+    formula = _CHARACTER.sub(r"&\1", tostring(tree, encoding="unicode"))
     if _LEFT.search(formula):
         raise ValueError(f"the formula is not typeset completely: {latex}")
     return Markup(_PRIME.sub(_RAISED, _SIGN.sub(_PREFIX, formula.replace(_ASTERISK, _OPERATOR))))

@@ -220,22 +220,96 @@ def test_units_of_symbols_that_nobody_knows() -> None:
 def test_the_page_holds_every_claim(tmp_path: Path) -> None:
     claims = (
         '[[claims]]\nlabel = "right"\nprinted = "P = pi*E_star*a**2/(4*R)"\n'
-        "[[claims]]\nlabel = \"<script>\"\nlatex = 'p_0 = \\frac{P}{\\pi a} \\text{<script>}'\n"
+        '[[claims]]\nlabel = "<script>"\n'
+        "latex = 'p_0 = \\frac{P}{\\pi a} \\href{javascript:x}{a} \\text{<script>}'\n"
         'printed = "x"\nunchecked = "not yet"\n'
         '[[claims]]\nlabel = "wrong"\nprinted = "P = E_star*a**2/(5*R)"\n'
     )
     done = asking.run(asking.written(tmp_path, HEAD + claims), "--format", "html")
     assert done.exit_code == 1
     page = done.stdout
-    assert "<script" not in page
+    assert "<script" not in page and 'href="j' not in page
+    assert page.count("<mtext>&lt;script&gt;</mtext>") == 1
     assert "&lt;script&gt;" in page
     assert page.count("<section") == 3
+    places = [page.index(f"<h2>{heading}</h2>") for heading in ("failed", "unchecked")]
+    assert places == sorted(places)
+    assert places[1] < page.index("<h2>held from the body</h2>")
     assert MARK in page  # another run may replace it
     assert "<dt>printed</dt><dd><math" in page
     assert "<code>P = pi*E_star*a**2/(4*R)</code>" in page
     assert "5*pi/4" in page
     assert page.count("<polyline") == 2
     assert page.rstrip().endswith("</html>")
+
+
+# The worse of two claims of one equation counts.  (1) is from the body, (2) by definition,
+# (3) from (2), (4) false, (5) and (6) without a meaning, one claim of (7) is not accepted yet, and
+# (8) is a table, which was not read.
+COVERED = """
+[[claims]]
+label = "(1)"
+printed = "P = pi*E_star*a**2/(4*R)"
+[[claims]]
+label = "(2)"
+printed = "p_0 = 2*P/(pi*a)"
+[[claims]]
+label = "(3)"
+given = ["(2)"]
+printed = "P = pi*a*p_0/2"
+[[claims]]
+label = "(4)"
+printed = "G = 2*b"
+symbols = { G = "b" }
+[[claims]]
+label = "(5)"
+printed = "t = b"
+[[claims]]
+label = "(6)"
+printed = "E = 2*G"
+[[claims]]
+label = "(7a)"
+equation = "(7)"
+latex = 'P = \\frac{\\pi}{4} \\frac{E^* a^2}{R}'
+accepted = false
+[[claims]]
+label = "(7b)"
+equation = "(7)"
+printed = "P = load(a, a)"
+[[claims]]
+label = "(8)"
+place = "table 1, paper.tex:90"
+latex = 'a_1 & <b>0.3</b>'
+unchecked = "a table is not read"
+[latex]
+"E^*" = "E_star"
+"""
+
+
+@pytest.mark.usefixtures("unmended")
+def test_every_form_counts_the_same_equations(tmp_path: Path) -> None:
+    path = asking.written(tmp_path, HEAD + COVERED)
+    before = (HEAD + COVERED).partition('label = "(7a)"')[0]
+    line_of_7 = before.count("\n")  # the line of its head, [[claims]]
+    line = (
+        "8 equations: 1 held from the body, 1 held from your definitions, 1 held from given claims,"
+        " 1 failed, 2 unchecked, 1 to be accepted, 1 not read"
+    )
+    for form in ("table", "markdown", "latex", "html"):
+        document = asking.run(path, "--format", form).stdout
+        assert line in document
+        assert "a table is not read" in document
+        assert form == "table" or "table 1, paper.tex:90" in document
+        assert "<b>0.3" not in document or form in ("latex", "markdown")
+        at = [document.index(part) for part in ("(4)", "(6)", "(8)", "(1)", "(3)")]
+        assert at == sorted(at)
+        for part in ("E has no meaning yet", f"claims.toml:{line_of_7}: accepted = true"):
+            assert form == "table" or part in document
+    told = {each["label"]: each for each in asking.told(tmp_path, HEAD + COVERED)}
+    assert list(told) == ["(1)", "(2)", "(3)", "(4)", "(5)", "(6)", "(7a)", "(7b)", "(8)"]
+    assert told["(8)"]["coverage"] == "not read"
+    assert told["(7a)"]["coverage"] == "to be accepted"
+    assert told["(2)"]["symbols"] == {"P": "load(a, a)", "p_0": "2*P/(pi*a)"}
 
 
 @pytest.mark.parametrize(

@@ -74,7 +74,7 @@ def test_json_has_what_the_contract_says(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "parts"),
     [
-        (("--format", "markdown"), ("## Errata", r"A = \pi R^{2}")),
+        (("--format", "markdown"), ("## Failed", r"A = \pi R^{2}")),
         (("--format", "latex"), (r"\end{document}", r"A = \pi R^{2}")),
         (
             ("--explain", "area"),
