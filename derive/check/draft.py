@@ -30,8 +30,9 @@ from derive.reading.formula import (
 )
 from derive.reading.latex import Latex
 from derive.reading.lexer import plain
-from derive.reading.spellings import spellings, standing_alone, unclear_call
+from derive.reading.spellings import functions_in, spellings, unclear_call
 from derive.reading.statements import Statement, remarks, statements
+from derive.reading.substitution import substitution
 
 _SECONDS = 10.0
 """The time limit for reading one equation, in seconds."""
@@ -133,12 +134,13 @@ def draft_claims(path: Path, inline: bool = False) -> Draft:
     if not source.found:
         why = "the file has no displayed equations"
         raise BadClaimsFile(str(path), why, "give a paper in LaTeX")
-    made, alone = Draft(path.name, source.environments, source.text), set[str]()
+    made = Draft(path.name, source.environments, source.text)
     known = [(each, _statements(path.name, each)) for each in source.found]
-    for statement in (each for _, found in known for each in found if not each.why):
-        alone |= standing_alone(statement.tokens)
-        for tokens in (statement.tokens, *statement.conditions):
-            made.spelled |= spellings(tokens)
+    readable = [each for _, found in known for each in found if not each.why]
+    formulas = [tokens for each in readable for tokens in (each.tokens, *each.conditions)]
+    functions = functions_in(formulas)
+    for tokens in formulas:
+        made.spelled |= spellings(tokens, functions)
     used = Counter[str]()
     for display, found in known:
         reader = Latex("the draft", display.latex, made.spelled)
@@ -149,7 +151,7 @@ def draft_claims(path: Path, inline: bool = False) -> Draft:
             label += f" [{used[label]}]" if used[label] > 1 else ""
             place = f"statement {part}, {path.name}" if len(found) > 1 else path.name
             entries = _printed(display, label, place, part if statement.tokens else 0)
-            made.claims.append(entries | _entries(reader, statement, alone))
+            made.claims.append(entries | _entries(reader, statement, functions))
     made.drop_bound()
     return made
 
@@ -182,11 +184,11 @@ def _printed(display: Display, label: str, place: str, part: int) -> dict[str, A
     return {key: entry for key, entry in found.items() if entry}
 
 
-def _entries(reader: Latex, statement: Statement, alone: set[str]) -> dict[str, Any]:
+def _entries(reader: Latex, statement: Statement, functions: set[str]) -> dict[str, Any]:
     """Read a statement and its conditions; give the reason if it cannot be judged."""
     names, why = Names("", {n: Symbol(n) for n in reader.spellings.values()}, {}), statement.why
     found = dict[str, Any]()
-    if not why and (called := unclear_call(statement.tokens, reader.spellings, alone)):
+    if not why and (called := unclear_call(statement.tokens, functions)):
         why = f"{called} is a function elsewhere, so it is unclear whether it is a factor here"
         why += ": write the claim as text"
     try:
@@ -195,7 +197,7 @@ def _entries(reader: Latex, statement: Statement, alone: set[str]) -> dict[str, 
                 understood = reader.read("equation", statement.tokens)
                 left, _, right = equation(understood, names, rough=statement.is_rough)
                 found |= {"understood": understood, "accepted": False}
-                found |= _pole(left, right)
+                found |= _pole(left, right) or _substitution(left, right)
     except BadFormula as error:
         why = _told(error)
     except LimitReached:
@@ -229,6 +231,15 @@ def _pole(left: Expr, right: Expr) -> dict[str, str]:
                 note = rf"\int may run over a pole at {along} = {pole}: if a principal value is "
                 return {"note": note + r"meant, write \fint for \int in `latex`"}
     return {}
+
+
+def _substitution(left: Expr, right: Expr) -> dict[str, str]:
+    """Note an equation that introduces an angle, with the line that defines it."""
+    if not (found := substitution(left, right)):
+        return {}
+    angle, value = found
+    line = f"{angle} = {{ is = '{value}' }}"
+    return {"note": f"if this substitution defines {angle}, write {line} under [symbols]"}
 
 
 def _conditions(statement: Statement, reader: Latex, names: Names) -> tuple[dict[str, Any], str]:

@@ -18,7 +18,7 @@ from derive.command.errors import BadName, BadProfile, BadUnit, UserError
 from derive.command.options import bad_option
 from derive.command.processes import Bounds, Report, in_processes
 from derive.reading.profile import parameters, read, tree_of, value
-from derive.reading.tree import Tree
+from derive.reading.text import Tree
 from derive.reading.units import units_of_profile
 from derive.reading.words import refusal
 from derive.symbols import RESERVED, x

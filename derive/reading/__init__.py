@@ -3,8 +3,7 @@
     module     input                        output
     --------   --------------------------   -------------------------------------------------
     words                                   the functions that may be called
-    tokens     text                         tokens, each with its column
-    tree       tokens                       a tree of Python's own parser, of permitted nodes only
+    text       text                         its tree by text.lark, or a refusal with its place
     limits     SymPy expression             whether it is too large, not finite or not real
     value      tree                         a SymPy expression within these limits
     profile    g(x) as text                 its expression, with a symbol for each parameter
@@ -17,6 +16,7 @@
     displays   LaTeX file                   its displays, numbered as LaTeX numbers them
     lexer      LaTeX                        tokens: the only place that knows how things are spelled
     statements tokens of a display          its equations, each with its condition
+    substitution                            the angle that an equation introduces
     spellings  tokens                       the symbols, each with a name
     typed      rules of latex.lark          typed text, or a refusal
     latex      tokens of an equation        an equation as text, if only one reading is possible

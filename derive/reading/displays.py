@@ -21,8 +21,9 @@ _EXPANSIONS = 1000
 
 _ROWS = ("align", "alignat", "flalign", "gather", "eqnarray")
 _KINDS = "|".join(("equation", "multline", "displaymath", "math", *_ROWS))
+_TABLES = ("tabular", "tabularx", "longtable")
 _START = re.compile(
-    rf"\\begin\s*\{{((?:{_KINDS})\*?)\}}|(?<!\\)(\\\[)|(?<!\\)(\$\$)"
+    rf"\\begin\s*\{{((?:{_KINDS}|{'|'.join(_TABLES)})\*?)\}}|(?<!\\)(\\\[)|(?<!\\)(\$\$)"
     r"|\\(begin|end)\s*\{subequations\}"
 )
 LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
@@ -98,6 +99,10 @@ def displays(path: Path, inline: bool = False) -> Source:
         found.append(Display(number, labels, line, _expanded(latex, macros).strip()))
 
     for (before, at, end, after), kind, numbers in _bodies(str(path), text, start):
+        if kind.rstrip("*") in _TABLES:
+            if re.search(r"\d", text[at:end]):
+                add(text[before:after], before)
+            continue
         between, count = between[:before] + " " * (after - before) + between[after:], count + 1
         if count > _MOST:
             why = f"the file has more than {_MOST} displays"
@@ -202,7 +207,7 @@ def _bodies(
         if kind.startswith("alignat") and (columns := re.match(r"\s*\{\d+\}", text[position:end])):
             position += columns.end()
         yield (opening.start(), position, end, end + len(close)), kind, numbers
-        position = end + len(close)
+        position = end + len(close) if kind.rstrip("*") not in _TABLES else position
 
 
 def _groups(body: str, kind: str) -> list[list[str]]:

@@ -1,6 +1,6 @@
 """Read an equation or a condition that a user typed, without executing any of it.
 
-The grammar is that of g(x) in derive.reading.tree.  The names must be declared in the claims file.
+The grammar is that of g(x) in derive.reading.text.  The names must be declared in the claims file.
 In addition to the functions of derive.reading.words, the following are available: the formulas on
 the body's formula sheet, which remain calls until they are substituted, and
 
@@ -11,7 +11,6 @@ The variable of an integral, a sum or a limit need not be declared; it is then k
 that call.  Their ends may be `oo` or `-oo`.
 """
 
-import ast
 import operator
 import re
 from collections.abc import Callable, Collection, Mapping
@@ -19,6 +18,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from lark import Token
+from lark import Tree as Branch
 from sympy import Derivative, Expr, Integral, Limit, S, Sum, Symbol, oo
 from sympy import Function as SymPyFunction
 from sympy.logic.boolalg import Boolean
@@ -27,8 +28,7 @@ from derive.command.errors import BadFormula, BadText
 from derive.reading.improper import PrincipalValue, ToInfinity
 from derive.reading.limits import fault
 from derive.reading.relation import Relation
-from derive.reading.tokens import LONGEST
-from derive.reading.tree import Tree, parse
+from derive.reading.text import LONGEST, Call, Node, Tree, column, names_in, parse
 from derive.reading.value import Meaning
 from derive.reading.words import FUNCTIONS, KEYWORDS, LOGICAL, PI, Function, Words
 
@@ -125,13 +125,12 @@ def unknown(text: str, names: Names) -> list[str]:
             continue
         bound = {
             id(name)
-            for call in ast.walk(tree.root)
-            if isinstance(call, ast.Call) and ast.unparse(call.func) in _BINDING
-            for name in (*ast.walk(call.args[0]), call.args[1])
-            if isinstance(name, ast.Name) and name.id == getattr(call.args[1], "id", "")
+            for call in tree.whole.find_data("call")
+            if call.children[0] in _BINDING
+            for name in (*names_in(call.children[1]), call.children[2])
+            if name == call.children[2]
         }
-        held = (each for each in ast.walk(tree.root) if isinstance(each, ast.Name))
-        found |= {each.id for each in held if id(each) not in bound} & tree.names().keys()
+        found |= {str(each) for each in names_in(tree.root) if id(each) not in bound}
     return sorted(found - names.symbols.keys() - {"oo"})
 
 
@@ -175,35 +174,32 @@ class _Reader(Meaning):
         super().__init__(tree, names.symbols)
         self.names = names
 
-    def named(self, node: ast.Name) -> Expr:
+    def named(self, node: Token) -> Expr:
         """Return the expression for a name; raises UnknownName."""
-        if node.id not in self.symbols:
+        if node not in self.symbols:
             known = ", ".join(sorted(self.names.symbols))
-            why = f"the claims file does not define {node.id}"
+            why = f"the claims file does not define {node}"
             remedy = f"define it, or use one of the known names {known}"
-            column = self.tree.column(node)
-            raise UnknownName(self.names.where, self.tree.text, column, why, remedy)
-        return self.symbols[node.id]
+            raise UnknownName(self.names.where, self.tree.text, column(node), why, remedy)
+        return self.symbols[node]
 
-    def call(self, node: ast.Call, name: str) -> Expr:
+    def call(self, node: Call, name: str) -> Expr:
         """Return the value of a function; a formula of the sheet remains a call."""
         if name in _ALONG:
-            return self._along(node, name, *node.args)
+            return self._along(node, name, *node.children[1:])
         return super().call(node, name)
 
-    def _along(
-        self, node: ast.Call, name: str, over: ast.expr, along: ast.expr, *ends: ast.expr
-    ) -> Expr:
+    def _along(self, node: Call, name: str, over: Node, along: Node, *ends: Node) -> Expr:
         """Return an integral, a sum, a limit or a derivative."""
         why, remedy = "the second argument is not a variable", f"write {name}(f, s, ...)"
-        if not isinstance(along, ast.Name) or along.id == PI:
+        if not isinstance(along, Token) or along.type != "NAME":
             raise self.refusal(node, why, remedy)
-        if along.id in self.names.meant:
-            why = f"{along.id} has a meaning, so that {name} cannot run over it"
+        if along in self.names.meant:
+            why = f"{along} has a meaning, so that {name} cannot run over it"
             raise self.refusal(along, why, "use a variable, or a name that is not defined")
         limits, outside = [self._end(end, name) for end in ends], self.symbols
-        if name in _BINDING and (along.id not in outside or name == "sum"):
-            self.symbols = {**outside, along.id: Symbol(along.id, real=True)}
+        if name in _BINDING and (along not in outside or name == "sum"):
+            self.symbols = {**outside, along: Symbol(str(along), real=True)}
         variable, inside = self.named(along), self.value(over)
         self.symbols = outside
         if not isinstance(variable, Symbol):
@@ -215,8 +211,8 @@ class _Reader(Meaning):
                 return PrincipalValue(inside, variable, *limits)
             case "sum":
                 hidden = {each.name for each in inside.free_symbols} & self.names.meant
-                if hidden and along.id in outside and outside[along.id].is_real:
-                    why = f"{min(hidden)} has a meaning that may depend on the variable {along.id}"
+                if hidden and along in outside and outside[along].is_real:
+                    why = f"{min(hidden)} has a meaning that may depend on the variable {along}"
                     raise self.refusal(along, why, "sum over a name that the file does not declare")
                 return self._sum(node, inside, variable, *limits)
             case "limit":
@@ -230,18 +226,19 @@ class _Reader(Meaning):
             raise self.refusal(node, why, "write a whole number from 1 to 4")
         return Derivative(inside, (variable, times))
 
-    def _end(self, node: ast.expr, name: str) -> Expr:
+    def _end(self, node: Node, name: str) -> Expr:
         """Return an end of an integral, a sum or a limit, which may be infinite."""
-        is_negative = isinstance(node, ast.UnaryOp)
-        inner = node.operand if isinstance(node, ast.UnaryOp) else node
-        if name == "diff" or not (isinstance(inner, ast.Name) and inner.id == "oo"):
+        sign, inner = (
+            node.children if isinstance(node, Branch) and len(node.children) == 2 else ("+", node)
+        )
+        if name == "diff" or inner != "oo":
             return self.value(node)
         if name == "pv":
             why = "an end of this principal value is infinite"
             raise self.refusal(node, why, "split off an integral without a pole")
-        return -oo if is_negative else oo
+        return -oo if sign == "-" else oo
 
-    def _integral(self, node: ast.Call, inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
+    def _integral(self, node: Call, inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
         if low == oo or high == -oo:
             why = "the ends of this integral are in the wrong order"
             raise self.refusal(node, why, "write the smaller end first")
@@ -254,7 +251,7 @@ class _Reader(Meaning):
             return ToInfinity(inside, along, low)
         return Integral(inside, (along, low, high))
 
-    def _sum(self, node: ast.Call, inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
+    def _sum(self, node: Call, inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
         if not low.is_Integer or not (high.is_Integer or high == oo):
             why = "the ends of this sum are not whole numbers"
             raise self.refusal(node, why, "write whole numbers, or oo for the upper end")
@@ -288,5 +285,5 @@ def may_be_rounded(text: str) -> bool:
 def usable(name: str, taken: Collection[str] = ()) -> bool:
     """Whether a name may be declared in a claims file."""
     plain = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) is not None
-    reserved = {PI, "oo", *LOGICAL.values(), *KEYWORDS, *FUNCTIONS, *_ALONG, *taken}
+    reserved = {PI, "oo", *LOGICAL, *KEYWORDS, *FUNCTIONS, *_ALONG, *taken}
     return plain and name not in reserved

@@ -91,13 +91,21 @@ def _terminals(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterato
 
 def _of_side(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterator[Token]:
     """Join the tokens of every symbol."""
-    bound, texts = _bound(tokens), [each.text for each in tokens]
+    bound, texts, kinds = _bound(tokens), [t.text for t in tokens], [t.type for t in tokens]
     position, cuts = 0, {_cut(each): name for each, name in spellings.items()}
     while position < len(tokens):
         token = tokens[position]
         found = [cut for cut in cuts if tuple(texts[position : position + len(cut)]) == cut]
         cut = max(found, key=len, default=())
         if cut and not (token.type == "DIFF" and any(each.type == "INT" for each in tokens)):
+            if "LIM" in kinds and kinds[position - 1] == "TO" and {"+", "-"} & {*cut[-2:]}:
+                why = "a limit from one side is not read"
+                raise Unclear(token.at, why, "write the claim with `as`, or as text")
+            if "SUM" in kinds and _bound(tokens, ("SUM",)) & {*cut[1:]}:
+                why = (
+                    f"{plain(tokens[position : position + len(cut)])} differs in each term of a sum"
+                )
+                raise Unclear(token.at, why, "write the terms out, or a formula for the symbol")
             token = token._replace(type="SYMBOL", text=cuts[cut], size=len(cut))
         elif token.text in bound:
             token = token._replace(type="SYMBOL")
@@ -116,12 +124,13 @@ def _cut(spelling: str) -> tuple[str, ...]:
         return tuple(each.text for each in scan(spelling))
 
 
-def _bound(tokens: Sequence[Token]) -> frozenset[str]:
+def _bound(tokens: Sequence[Token], by: Sequence[str] = ("DIFF", "SUM", "LIM")) -> frozenset[str]:
     """Return the letters along which an integral, a sum or a limit is taken."""
     found, kinds = set[str](), [each.type for each in tokens]
     for n, kind in enumerate(kinds):
-        after = 1 if kind == "DIFF" and "INT" in kinds else 3 * (kind in ("SUM", "LIM"))
-        found.update(each.text for each in tokens[n + after : n + after + 1] if after)
+        if kind in by and (kind != "DIFF" or "INT" in kinds):
+            after = n + (1 if kind == "DIFF" else 3)
+            found.update(each.text for each in tokens[after : after + 1])
     return frozenset(t for t in found if (len(t) == 1 and t.isalpha()) or t in GREEK)
 
 
@@ -138,20 +147,34 @@ _FORMS = {
     **dict.fromkeys(("FUNC", "CIRCULAR"), r"\sin(a)"),
 }
 """How what begins with a terminal is written."""
-_BY_TEXT = "write the claim as text, with numbers in the units of the file"
+_REMAINDER = (
+    "a remainder is only understood as the last term of an equation, as in + O(x^2)",
+    "write the equation without it, with `as` and `order`",
+)
+_NEVER_READ = {
+    "TEXT": (
+        "the words {words!r} are not understood here",
+        "write the claim as text, with numbers in the units of the file",
+    ),
+    **dict.fromkeys(("REST", "DOTS"), _REMAINDER),
+    "UNDERSCORE": (
+        "this index is not understood here",
+        "declare the symbol with its index under [latex]",
+    ),
+    "VALUE": (
+        "a value at a point, or between two, is not read",
+        "write it as text, with a symbol for the value",
+    ),
+}
+"""Terminals that no rule of the grammar takes: why not, and the remedy."""
 
 
 def _unread(token: Token, stack: Sequence[Any]) -> Unclear:
     """Return the reason why a token does not fit after what is on the parser's stack."""
     known = {each.name for rule in _parser().rules for each in rule.expansion if each.is_term}
-    if token.type == "TEXT":
-        return Unclear(token.at, f"the words {token.words!r} are not understood here", _BY_TEXT)
-    if token.type in ("REST", "DOTS"):
-        why = "a remainder is only understood as the last term of an equation, as in + O(x^2)"
-        return Unclear(token.at, why, "write the equation without it, with `as` and `order`")
-    if token.type == "UNDERSCORE":
-        why = "this index is not understood here"
-        return Unclear(token.at, why, "declare the symbol with its index under [latex]")
+    if token.type in _NEVER_READ:
+        why, remedy = _NEVER_READ[token.type]
+        return Unclear(token.at, why.format(words=token.words), remedy)
     if token.type not in {"$END", *known}:
         why = f"{token.text} is neither a declared symbol nor a supported command"
         return Unclear(token.at, why, "declare it under [latex], or write the claim as text")

@@ -54,6 +54,7 @@ SUM       \sum
 LIM       \lim
 INT       \int
 INT       \pvint \fint \dashint principal
+VALUE     value
 DIFF      \dd
 EULER     \euler
 PV        \pv
@@ -62,9 +63,6 @@ SYMBOL    \infty
 DOTS      \dots  \ldots \cdots dots
 GAP       \quad  gap
 LINE      \\     row
-CIRCULAR  \cot
-CIRCULAR  \sec
-CIRCULAR  \csc
 """
 """The terminal, the plain LaTeX, and other spellings of it, or names of groups of _TOKEN."""
 _LETTERS = r"""
@@ -86,11 +84,12 @@ for _each, _name in COMMANDS.items():
     _circular = FUNCTIONS[_name].like.endswith(ENDS_SOONER)
     _TABLE.setdefault(_each, ("CIRCULAR" if _circular else "FUNC", _each))
 
+_HYPERBOLIC = ("sinh", "cosh", "tanh", "coth", "sech", "csch")
 _UPRIGHT = {
     **{name: command for command, name in COMMANDS.items() if name.islower()},
     **{command[1:]: command for command in COMMANDS if command.islower()},
-    **{f"arc{name}": rf"\ar{name}" for name in ("sinh", "cosh", "tanh")},
-    **{"cot": r"\cot", "d": r"\dd", "e": r"\euler"},
+    **{f"arc{name}": rf"\ar{name}" for name in _HYPERBOLIC},
+    **{"d": r"\dd", "e": r"\euler"},
     **dict.fromkeys(("PV", "pv", "p.v.", "P.V.", "p. v.", "CPV"), r"\pv"),
 }
 """Functions and constants whose name is printed upright."""
@@ -110,10 +109,12 @@ CLAUSES = frozenset(word.split()[0] for word in _KINDS if _KINDS[word] != "ELSE"
 _ENVIRONMENTS = {
     **dict.fromkeys(("split", "aligned", "gathered", "alignedat"), "LINES"),
     **dict.fromkeys(("cases", "dcases", "rcases", r"\{cases", r"\{dcases", r"\{array"), "BEGIN"),
-    "array": "FRAME",
 }
-"""Environments whose rows are lines, or have a value and a condition each; an array is neither,
-unless it encloses all of a display.  Others are refused."""
+"""Environments whose rows are lines, or have a value and a condition each.  Others are refused as
+tables, except for an array with equations around all of a display."""
+CONDITIONS = frozenset(("ORDER", "TO", "NE", "RELATED"))
+"""Relations of a condition, if they follow an equation after a comma or a wide space."""
+RELATIONS = CONDITIONS | {"EQUAL", "ROUGH", "PROPTO"}
 _AROUND = frozenset(("{", "BEGIN", "LINES", "FRAME"))
 """Brackets and environments that say nothing if they enclose all of a display."""
 _UNITS = frozenset("gmsJNW")
@@ -126,7 +127,8 @@ _TOKEN = re.compile(
     rf"""(?P<layout>
         \\l?eqno(?![A-Za-z]).*
       | \\(?:label|tag\*?|hspace\*?|vspace\*?|mathstrut|phantom)\s*\{{[^{{}}]*\}}
-      | \\(?:nonumber|notag|displaystyle|textstyle|limits|boxed|[bB]igg?[lrm]?)(?![A-Za-z])
+      | \\(?:nonumber|notag|displaystyle|textstyle|(?:no)?limits|mathop|boxed)(?![A-Za-z])
+      | \\[bB]igg?[lrm]?(?![A-Za-z])
       | \\(?:left|right)\s*\. | \\(?:left|right)(?![A-Za-z]|\s*[{{}}]) | \\!
       | \s+)
     | (?P<gap>(?:{_SPACE}\s*){{2,}} | \\q?quad(?![A-Za-z]))
@@ -135,7 +137,8 @@ _TOKEN = re.compile(
     | (?P<open>\\(?:left|right)\s*\{{) | (?P<close>\\(?:left|right)\s*\}})
     | (?P<order>(?:\\(?:mathcal|mathscr)\s*(?:\{{\s*O\s*\}}|O))
       | [Oo](?=(?:\s|\\left|\\[bB]igg?l?)*\())
-    | (?P<principal>-(?:\s|\{{\}})*\\!(?:\s|\\!|\{{\}})*\\int(?![A-Za-z]))
+    | (?P<principal>\\Xint\s*(?:-|\{{-\}}) | -(?:\s|\{{\}})*\\!(?:\s|\\!|\{{\}})*\\int(?![A-Za-z]))
+    | (?P<value>(?:\||\\r?vert)(?=\s*_))
     | (?P<defined>:\s*= | \\stackrel\s*\{{\s*\\\w+\s*\{{?\s*def\.?\s*\}}?\s*\}}\s*\{{\s*=\s*\}})
     | (?P<unequal>\\not\s*=)
     | (?P<stacked>\\(?:underset|overset|stackrel)
@@ -205,7 +208,7 @@ def plain(tokens: Sequence[Token]) -> str:
 
 def tokens_of(latex: str) -> list[Token]:
     """Cut a display, or the LaTeX of a symbol; raise Unclear if its brackets do not match."""
-    return _differentials(_nested(_unframed(scan(latex))))
+    return _differentials(_nested(_unframed(_indices_first(scan(latex)))))
 
 
 def scan(latex: str, start: int = 0, end: int | None = None) -> list[Token]:
@@ -346,7 +349,9 @@ def _unframed(tokens: list[Token]) -> list[Token]:
         if made[start].type != "GAP":
             if close == end or any(t.type not in _PUNCTUATION for t in made[close + 1 : end]):
                 break
-            if made[start].text[len(r"\begin{") : -1] in ("", *_ENVIRONMENTS):
+            name = made[start].text[len(r"\begin{") : -1]
+            is_system = name == "array" and any(t.type in RELATIONS for t in made[start:close])
+            if is_system or name in ("", *_ENVIRONMENTS):
                 made[start] = made[start]._replace(type="LINES")
             end = close
         start += 1
@@ -375,8 +380,8 @@ def _nested(tokens: list[Token]) -> list[Token]:
         if kind in _CLOSING:
             opened.append(token)
         if kind == "FRAME":
-            why = f"{token.text} inside a display is not supported"
-            raise Unclear(token.at, why, "write it as text")
+            why = f"{token.text} is a table or a matrix, which is not read"
+            raise Unclear(token.at, why, "write what it says as claims in text")
         if kind == "OVER" and not around:
             why = r"\over divides the whole display"
             raise Unclear(token.at, why, "put braces around the fraction")
@@ -400,6 +405,25 @@ def _closing(token: Token) -> str:
 
 def _unclosed(token: Token) -> Unclear:
     return Unclear(token.at, f"this {token.text} is not closed", f"add {_closing(token)}")
+
+
+def _indices_first(tokens: list[Token]) -> list[Token]:
+    """Put an index before the exponent that is printed above it, as in c_s^2 for c^2_s."""
+    made, at = list(tokens), 0
+    while at < len(made):
+        if made[at].text == "^":
+            end = _past(made, at + 1)
+            if [each.text for each in made[end : end + 1]] == ["_"]:
+                after = _past(made, end + 1)
+                made[at:after] = [*made[end:after], *made[at:end]]
+                at = after - 1
+        at += 1
+    return made
+
+
+def _past(tokens: Sequence[Token], at: int) -> int:
+    """Return the position after a token or a group in braces."""
+    return (partner(tokens, at) if [t.text for t in tokens[at : at + 1]] == ["{"] else at) + 1
 
 
 def _differentials(tokens: list[Token]) -> list[Token]:

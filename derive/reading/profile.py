@@ -6,7 +6,7 @@ from sympy import Expr, Symbol
 
 from derive.body.geometry import parameter
 from derive.command.errors import BadName
-from derive.reading.tree import Tree, parse
+from derive.reading.text import Tree, parse
 from derive.reading.value import Meaning
 from derive.reading.words import FUNCTIONS_OF_PROFILES, Words
 from derive.symbols import x

@@ -2,12 +2,13 @@ r"""Find the symbols in LaTeX, and give a name to each.
 
 A letter with all its indices and accents is one symbol: K_{N,c}, E^*, \Delta Q, q_1^{(asy)}(x).
 A letter followed by a symbol, or a list of symbols, in parentheses is a function, which is one
-symbol as well; p(x) and p(x, c) are two different symbols.  The draft lists every spelling, so
-that the user can check it.
+symbol as well; p(x) and p(x, c) are two different symbols.  So is p(a - s), its value there, if p
+is printed as a function and never alone.  The draft lists every spelling, so that the user can
+check it.
 """
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from derive.reading.formula import usable
 from derive.reading.lexer import GREEK, Token
@@ -16,8 +17,9 @@ from derive.reading.lexer import GREEK, Token
 _GREEK = "|".join(re.escape(each) for each in sorted(GREEK))
 _LETTER = rf"(?:[A-Za-z]|{_GREEK}) "
 _ACCENTS = {
-    **{rf"\{name}": name for name in ("bar", "hat", "tilde", "dot", "vec")},
-    **{r"\overline": "bar", r"\widehat": "hat", r"\widetilde": "tilde"},
+    **{rf"\{name}": name for name in ("bar", "hat", "tilde", "dot", "ddot", "vec", "check")},
+    **{r"\overline": "bar", r"\widehat": "hat", r"\widetilde": "tilde", r"\underline": "under"},
+    **{r"\mathcal": "cal", r"\mathscr": "scr", r"\mathfrak": "frak"},
 }
 _SIGNS = {"+": "plus", "-": "minus", "*": "star", "'": "prime"}
 _ACCENT = "|".join(map(re.escape, _ACCENTS))
@@ -29,7 +31,7 @@ _INDEX = (
 )
 _RAISED = (
     r"\^ (?:[*'+-] |\{ (?:[*'+-] "
-    rf"|(?:\( |{_LETTER}(?=[^}}]))(?:[A-Za-z] |{_COMMAND} |[(),] )+)\}} )"
+    rf"|\( \d+ \) |(?:\( |{_LETTER}(?=[^}}]))(?:[A-Za-z] |{_COMMAND} |[(),] )+)\}} )"
 )
 _HUNG = rf"(?:' |{_INDEX}|{_RAISED})*"
 _BODY = rf"(?:{_LETTER}|(?:{_ACCENT}) (?:{_LETTER}|\{{ {_LETTER}{_HUNG}\}} )){_HUNG}"
@@ -39,6 +41,12 @@ for _ in range(3):  # arguments may be functions
     _ARGUMENT = rf"(?:\d+ (?=[,;)]|$)|{_WHOLE}{_CALL})"
     _CALL = rf"(?:\( {_ARGUMENT}(?:[,;] {_ARGUMENT})*\) )?"
 _SYMBOL = _WHOLE + _CALL
+_TERM = rf"(?:\d+ (?:{_WHOLE})?|{_WHOLE})"
+_TERM = rf"(?:{_TERM}(?:/ {_TERM})?|\\frac \{{ {_TERM}\}} \{{ {_TERM}\}} |\| {_TERM}\| )"
+_SUM = rf"(?:[+-] )?{_TERM}(?:[+-] {_TERM})*"
+_VALUE = re.compile(rf"\( ({_SUM}(?:[,;] {_SUM})*)\) ")
+"""Arguments of what is known to be a function."""
+_OPERATIONS = {"+": "plus", "-": "minus", "/": "over"}
 _TIMES = r"(?:\^ (?:\d |\{ \d \} ))?"
 _DERIVATIVE = (
     rf"\\frac \{{ (?:\\dd |\\partial )({_TIMES})({_SYMBOL})\}} "
@@ -52,8 +60,13 @@ _PIECES = re.compile(
 )
 
 
-def symbols(tokens: Sequence[Token]) -> Iterator[tuple[int, int, str]]:
-    """Yield the start, the end and a name for each symbol."""
+def symbols(
+    tokens: Sequence[Token], functions: Collection[str] = ()
+) -> Iterator[tuple[int, int, str]]:
+    """Yield the start, the end and a name for each symbol.
+
+    functions: symbols of which anything in parentheses is the argument
+    """
     text = "".join(token.text.replace(" ", "~") + " " for token in tokens)
     integrates = any(each.type == "INT" for each in tokens)
     at = 0
@@ -62,7 +75,12 @@ def symbols(tokens: Sequence[Token]) -> Iterator[tuple[int, int, str]]:
         if integrates and match[0].startswith(r"\dd "):
             at = start + len(r"\dd ")
             continue
-        yield text.count(" ", 0, start), text.count(" ", 0, at), _name(match)
+        first, last, name = text.count(" ", 0, start), text.count(" ", 0, at), _name(match)
+        value = _VALUE.match(text, at) if _spelled(tokens[first:last]) in functions else None
+        if value:
+            at = value.end()
+            last, name = text.count(" ", 0, at), f"{name}_at_{_argument_name(value[1])}"
+        yield first, last, name
 
 
 def _name(match: re.Match[str]) -> str:
@@ -82,8 +100,10 @@ def _symbol_name(text: str) -> str:
     name = (_symbol_name(inner) if inner else own) + (f"_{_ACCENTS[accent]}" if accent else "")
     for each in re.findall(rf"' |{_INDEX}|{_RAISED}", hung):
         words = re.sub(r"[{}()\\]|\s", "", re.sub(r"^[_^] ", "", each))
+        words = re.sub("^,", "comma,", words)
         if each[0] == "^" and words not in _SIGNS:
-            words = words.replace(",", "")
+            is_number = words.isdigit() or len(words) == 1
+            words = ("upper" if is_number else "") + words.replace(",", "")
         name += "_" + "_".join(_SIGNS.get(word, word) for word in words.split(",") if word)
     if before:
         name = {"\\Delta ": "Delta_", "\\dd ": "d"}[before] + name
@@ -95,35 +115,45 @@ def _symbol_name(text: str) -> str:
     return name
 
 
-def spellings(tokens: Sequence[Token]) -> dict[str, str]:
+def _argument_name(text: str) -> str:
+    text = re.sub(r"\| (.*?)\| ", r"abs \1", text.replace("} { ", "/ "))
+    parts = re.findall(rf"{_WHOLE}|[\w+/-]+(?= )", re.sub(r"\\frac |[{}] ", "", text))
+    named = (_OPERATIONS.get(p) or (p if p.isalnum() else _symbol_name(p)) for p in parts)
+    return "_".join(named)
+
+
+def spellings(tokens: Sequence[Token], functions: Collection[str] = ()) -> dict[str, str]:
     """Return a name for the LaTeX of every symbol."""
-    return {
-        _spelled(tokens[start:end]): name for start, end, name in symbols(tokens) if usable(name)
-    }
+    found = symbols(tokens, functions)
+    return {_spelled(tokens[start:end]): name for start, end, name in found if usable(name)}
 
 
-def _plain_ones(tokens: Sequence[Token]) -> Iterator[tuple[str, bool]]:
+def _plain_ones(
+    tokens: Sequence[Token], functions: Collection[str] = ()
+) -> Iterator[tuple[str, bool]]:
     """Yield the symbols printed without arguments, and whether a parenthesis follows."""
-    for start, end, name in symbols(tokens):
+    for start, end, name in symbols(tokens, functions):
         if "_at_" not in name:
             yield _spelled(tokens[start:end]), [t.text for t in tokens[end : end + 1]] == ["("]
 
 
-def standing_alone(tokens: Sequence[Token]) -> set[str]:
-    """Return the symbols that are printed without arguments and without following parentheses."""
-    return {own for own, follows in _plain_ones(tokens) if not follows}
+def functions_in(formulas: Iterable[Sequence[Token]]) -> set[str]:
+    """Return the symbols that are printed as functions, and nowhere without parentheses."""
+    found, alone = set[str](), set[str]()
+    for tokens in formulas:
+        names = spellings(tokens).items()
+        found |= {own.partition("(")[0] for own, name in names if "_at_" in name}
+        alone |= {own for own, follows in _plain_ones(tokens) if not follows}
+    return found - alone
 
 
-def unclear_call(
-    tokens: Sequence[Token], spelled: Mapping[str, str], alone: Collection[str]
-) -> str:
-    """Return a symbol for which it is unclear whether the parentheses after it are its argument.
+def unclear_call(tokens: Sequence[Token], functions: Collection[str]) -> str:
+    """Return a function after which the parentheses hold no argument that can be named.
 
-    Such a symbol is a function wherever else it occurs.  The result is empty if there is none.
+    The result is empty if there is none.
     """
-    functions = {own.partition("(")[0] for own, name in spelled.items() if "_at_" in name}
-    unclear = functions - set(alone)
-    return next((own for own, follows in _plain_ones(tokens) if follows and own in unclear), "")
+    plain_ones = _plain_ones(tokens, functions)
+    return next((own for own, follows in plain_ones if follows and own in functions), "")
 
 
 def _spelled(tokens: Sequence[Token]) -> str:

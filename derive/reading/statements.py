@@ -16,14 +16,21 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import dropwhile, takewhile
 
-from derive.reading.lexer import CLAUSES, Token, Unclear, plain, refusal, scan, tokens_of
+from derive.reading.lexer import (
+    CLAUSES,
+    CONDITIONS,
+    RELATIONS,
+    Token,
+    Unclear,
+    plain,
+    refusal,
+    scan,
+    tokens_of,
+)
 
 _MOST = 20_000
 """The largest number of characters in a display."""
-_CONDITIONS = frozenset(("ORDER", "TO", "NE", "RELATED"))
-"""Relations of a condition, if they follow an equation after a comma or a wide space."""
-_RELATIONS = _CONDITIONS | {"EQUAL", "ROUGH", "PROPTO"}
-_JOINING = _RELATIONS | {"SIGN", "PM", "OPERATOR"}
+_JOINING = RELATIONS | {"SIGN", "PM", "OPERATOR"}
 """Tokens after which, or before which, an expression continues."""
 _CUTS = {
     **dict.fromkeys(("COMMA", ";", "AND"), "COMMA"),
@@ -87,7 +94,7 @@ def remarks(latex: str) -> list[str]:
 
 
 def _relations(tokens: Sequence[Token]) -> set[str]:
-    return {each.type for each in tokens if not each.depth} & _RELATIONS
+    return {each.type for each in tokens if not each.depth} & RELATIONS
 
 
 def _alone(tokens: list[Token]) -> str:
@@ -103,18 +110,18 @@ def _entries(tokens: Sequence[Token]) -> list[Statement]:
     made = list[Statement]()
     for joint, piece in _pieces(tokens):
         last, kinds = made[-1] if made else Statement([]), _relations(piece)
-        may_have = last.conditions or last.relations - _CONDITIONS
+        may_have = last.conditions or last.relations - CONDITIONS
         if joint == "WHERE":
             made = made or [Statement([])]
             made[-1].require(piece, joint)
-        elif may_have and kinds and kinds <= _CONDITIONS and joint not in ("IMPLIES", "IFF"):
+        elif may_have and kinds and kinds <= CONDITIONS and joint not in ("IMPLIES", "IFF"):
             last.require(piece, joint)
         elif made and not (kinds and last.relations):
             last.why = last.why or _alone(piece if last.relations else last.tokens)
             last.tokens = [*last.tokens, Token("COMMA", ",", piece[0].at), *piece]
         else:
             made.append(_with_condition(piece))
-            if joint == "IMPLIES" and made[:-1] and not last.relations - _CONDITIONS:
+            if joint == "IMPLIES" and made[:-1] and not last.relations - CONDITIONS:
                 made[-1].why = "it follows from a condition: write the condition in `require`"
             if joint == "IFF" and made[:-1]:
                 why = "equivalent statements may both be false: write, as text, the one that holds"
@@ -216,7 +223,7 @@ def _with_condition(piece: list[Token]) -> Statement:
 
 def _chain(entry: Statement) -> Iterator[Statement]:
     """Yield the statements of a chain of relations; equal sides are compared with the first."""
-    cuts = [n for n, t in enumerate(entry.tokens) if not t.depth and t.type in _RELATIONS]
+    cuts = [n for n, t in enumerate(entry.tokens) if not t.depth and t.type in RELATIONS]
     conditions = [one for each in entry.conditions for one in _one_sided(each)]
     if entry.why or not cuts:
         yield Statement(entry.tokens, conditions, entry.why or _alone(entry.tokens))
@@ -313,5 +320,5 @@ def _signed(tokens: list[Token], upper: bool) -> list[Token]:
     return made
 
 
-_BEFORE = _RELATIONS | {"{", "(", "[", "COMMA"}
+_BEFORE = RELATIONS | {"{", "(", "[", "COMMA"}
 """Tokens after which a plus sign says nothing."""

@@ -17,16 +17,12 @@ _TYPED = {
     **{"=": "=", "<": "<", ">": ">", r"\le": "<=", r"\ge": ">=", r"\sim": "~"},
     **{r"\pi": "pi", r"\infty": "oo", r"\lambda": "lam", r"\cdot": "*"},
     **{r"\int": "integral", r"\pvint": "pv"},
-    **{**COMMANDS, r"\cot": "1/tan", r"\sec": "1/cos", r"\csc": "1/sin"},
+    **COMMANDS,
 }
 """The typed text of relations, signs, constants and functions."""
 
 
 _SINGLE = ("without braces, TeX takes only one character here", "use braces")
-_ARGUMENT = (
-    "the end of the function's argument is unclear",
-    "put the function and its argument in parentheses, as in (\\sin(a)) b",
-)
 _LEVELS = {"": 0, "product": 1, "power": 2, "atom": 3}
 _TEMPLATES = {
     "modulus": ("atom", "abs({1})"),
@@ -43,6 +39,8 @@ _TEMPLATES = {
 """The precedence and the typed text of rules, with the parts of the rule by their numbers."""
 _BOUND = {"series": r"\b{1.along}\b", "limit": ""}
 """A pattern for terms that may belong to the sum or limit before them."""
+_TWO_RELATIONS = {"NE": "({0} < {2} or {0} > {2})", "EQUAL": "({0} <= {2} and {0} >= {2})"}
+"""Conditions that are typed as two others."""
 _FUNCTIONS = frozenset(("FUNC", "CIRCULAR"))
 _AFTER_BRACKETS = _FUNCTIONS | {"OPERATOR", "FRAC", "SQRT"}
 """What may follow an argument whose end is shown by brackets or bars."""
@@ -59,6 +57,7 @@ class _Code:
     is_one   whether it is one factor
     slashed  whether a slash stands before its last factor
     follow   the terminals that may follow; None if any may
+    unclear  two readings with anything else that follows, which stands for {}
     bound    a pattern for terms that may belong to a sum or a limit at its end
     """
 
@@ -70,11 +69,17 @@ class _Code:
     is_one: bool = True
     slashed: bool = False
     follow: frozenset[str] | None = None
+    unclear: tuple[str, str] = ("", "")
     bound: str | None = None
 
     def __format__(self, level: str) -> str:
         """Return the text for use at a level, in parentheses if they are needed."""
         return self.text if _LEVELS[self.level] >= _LEVELS[level] else f"({self.text})"
+
+    def demand_end(self, at: int, kind: str, following: str) -> None:
+        """Refuse what follows a function if it may belong to its argument."""
+        if self.follow is not None and kind not in self.follow:
+            raise _unclear_argument(at, *(each.format(following) for each in self.unclear))
 
 
 @dataclass(frozen=True)
@@ -84,6 +89,10 @@ class Limits:
     low: _Code
     high: _Code
     along: str
+
+
+Argument = tuple[str, list[str], int]
+"""An argument of a function: how its end is shown, its text in parts, and a place in it."""
 
 
 @v_args(inline=True)
@@ -112,10 +121,10 @@ class _Typed(Transformer[Any, Any]):
 
     def comparison(self, *parts: Any) -> str:
         relations = [each.type for each in parts[1::2]]
-        if not relations or ("NE" in relations and len(relations) > 1):
+        if not relations or (len(relations) > 1 and {"NE", "EQUAL"} & {*relations}):
             raise Unclear(parts[0].at, "this is not a condition", "write a relation, such as x < a")
-        if relations == ["NE"]:
-            return "({0} < {2} or {0} > {2})".format(*parts)
+        if relations[0] in _TWO_RELATIONS:
+            return _TWO_RELATIONS[relations[0]].format(*parts)
         return " ".join(typed(each) if isinstance(each, Token) else each.text for each in parts)
 
     # sums, products and powers
@@ -135,8 +144,9 @@ class _Typed(Transformer[Any, Any]):
 
     def multiplied(self, left: _Code, operator: Token | None, right: _Code) -> _Code:
         at, kind = (operator.at, operator.type) if operator else (right.at, right.kind)
-        if left.follow is not None and kind not in left.follow:
-            raise Unclear(at, *_ARGUMENT)
+        sign = typed(operator) if operator else "*"
+        factor = f"{right:power}" if sign == "/" else f"{right:product}"
+        left.demand_end(at, kind, f"{sign}{factor}")
         if left.slashed and not operator:
             why = "it is unclear whether this belongs to the denominator"
             raise Unclear(at, why, "write \\frac, or use parentheses")
@@ -144,18 +154,23 @@ class _Typed(Transformer[Any, Any]):
         if is_number and re.search(r"(?<![\w.])[\d.]+$", left.text):
             why = "two numbers stand side by side, which may mean a sum, as in 3 1/2"
             raise Unclear(at, why, "put \\cdot or + between them")
-        sign = typed(operator) if operator else "*"
-        factor = f"{right:power}" if sign == "/" else f"{right:product}"
         slashed, text = left.slashed or sign == "/", f"{left:product}{sign}{factor}"
         return replace(right, text=text, level="product", is_one=False, slashed=slashed)
 
     def raised(self, base: _Code, power: Token, exponent: _Code) -> _Code:
-        if base.follow is not None:
-            raise Unclear(power.at, *_ARGUMENT)
+        base.demand_end(power.at, "POWER", f"**{exponent:atom}")
         if base.text == "e" and not exponent.text.isdigit():
             why = "it is unclear whether e is a symbol here"
             remedy = "write \\exp(...) or \\mathrm{e}^{...}, or rename the symbol"
             raise Unclear(base.at, why, remedy)
+        if (
+            base.kind == "SYMBOL"
+            and exponent.kind == "("
+            and exponent.is_one
+            and "/" not in exponent.text
+        ):
+            why = "it is unclear whether the parentheses hold an exponent or an index"
+            raise Unclear(exponent.at, why, "write the exponent without them, or rename the symbol")
         return replace(base, text=f"{base:atom}**{exponent:atom}", level="power")
 
     # factors
@@ -171,8 +186,8 @@ class _Typed(Transformer[Any, Any]):
             raise Unclear(code.at, *_SINGLE)
         return code
 
-    def group(self, inner: _Code) -> _Code:
-        return _Code(inner.text, inner.level, "(", inner.at)
+    def group(self, opening: Token, inner: _Code, _: Token) -> _Code:
+        return _Code(inner.text, inner.level, "(", opening.at)
 
     def braces(self, brace: Token, inner: _Code) -> _Code:
         if not inner.is_one:
@@ -186,12 +201,17 @@ class _Typed(Transformer[Any, Any]):
         inside = _from_template("fraction", bar, over, under)
         if before:
             inside = self.multiplied(before, None, inside)
-        return _from_template("integral", sign, limits, inside, differential, along)
+        return self.integral(sign, limits, inside, differential, along)
+
+    def integral(self, *parts: Any) -> _Code:
+        limits, along = parts[1], parts[4]
+        if limits.along not in ("", typed(along)):
+            why = f"the limits are those of {limits.along}, but the integral is over {typed(along)}"
+            raise Unclear(along.at, why, "correct one of them")
+        return _from_template("integral", *parts)
 
     def limits(self, *parts: Any) -> Limits:
         low, high = (each for each in parts if isinstance(each, _Code))
-        if getattr(parts[0], "type", "") == "POWER":
-            low, high = high, low
         names = [typed(each) for each in parts if getattr(each, "type", "") == "SYMBOL"]
         return Limits(low, high, "".join(names))
 
@@ -204,23 +224,32 @@ class _Typed(Transformer[Any, Any]):
 
     # functions
 
-    def multiple(self, *tokens: Token) -> tuple[str, list[str], int]:
-        return "multiple", ["*".join(map(typed, tokens))], tokens[1].at
+    def multiple(self, first: Token, *parts: Any) -> Argument:
+        r"""Read 2x, \frac12 x or \frac{1}{2}(x + y) as one argument; a quotient may also end it."""
+        kind = "group" if isinstance(parts[-1], _Code) else "multiple"
+        factor, rest = typed(first), list(parts)
+        if first.type == "FRAC":
+            over, under, *rest = rest
+            factor = f"{over:product}/{under:power}"
+            kind = "group" if f"{over.text}{under.text}".isdigit() else "quotient"
+        texts = (typed(e) if isinstance(e, Token) else f"{e:product}" for e in rest)
+        return kind, [factor, *texts], rest[0].at
 
-    def bare(self, code: _Code) -> tuple[str, list[str], int]:
-        return "shown" if code.kind == "LBAR" else "bare", [code.text], code.at
+    def bare(self, code: _Code) -> Argument:
+        kind = "nested" if code.kind in _FUNCTIONS else "shown" if code.kind == "LBAR" else "bare"
+        return kind, [code.text], code.at
 
-    def bracketed(self, *parts: Any) -> tuple[str, list[str], int]:
+    def bracketed(self, *parts: Any) -> Argument:
         return "shown", [each.text for each in parts[::2]], parts[-1].at
 
-    def braced(self, brace: Token, *parts: Any) -> tuple[str, list[str], int]:
+    def braced(self, brace: Token, *parts: Any) -> Argument:
         if any(each.level == "" for each in parts[::2]):
             why = "braces are not printed, so the end of the argument is unclear"
             raise Unclear(brace.at, why, "use parentheses")
         return "bare", [each.text for each in parts[::2]], parts[-1].at
 
     def function(self, command: Token, *parts: Any) -> _Code:
-        base, power, exponent, (ending, texts, second) = parts
+        base, power, exponent, (kind, texts, second) = parts
         name, digits = typed(command), exponent.text if exponent else ""
         if digits == "-1" and f"a{name}" in FUNCTIONS:
             name, power = f"a{name}", None
@@ -228,17 +257,32 @@ class _Typed(Transformer[Any, Any]):
         if not is_power or (base and (power or command.text != r"\log")):
             why = f"this index or power of {command.text} is unclear"
             raise Unclear(command.at, why, "write \\arcsin, or a fraction, or use parentheses")
+        if FUNCTIONS[name].most > 1 and len(texts) == 1:
+            why = f"it is unclear over what {command.text} of one quantity is taken"
+            raise Unclear(command.at, why, "give it a symbol of its own, as in p_{\\max}")
         circular = command.type == "CIRCULAR"
-        if ending == "multiple" and not circular:
-            raise Unclear(second, *_ARGUMENT)
-        inverse, _, name = name.rpartition("/")
-        text, level = f"{name}({', '.join(texts)})", "power" if power else "atom"
-        text += f"**{digits}" if power else ""
-        if inverse or base:
-            text, level = f"1/{text}" if inverse else f"{text}/log({base})", "product"
-        follow = _FUNCTIONS if circular else frozenset[str]()
-        follow = _AFTER_BRACKETS if ending == "shown" else follow
-        return _Code(text, level, command.type, command.at, follow=follow)
+        after = (f"**{digits}" if power else "") + (f"/log({base})" if base else "")
+        if kind in ("multiple", "group", "quotient"):
+            first, inside = texts[0], "*".join(texts)
+            may_end = kind == "quotient" or (kind == "group" and name.startswith("a"))
+            if may_end or not circular:
+                rest = inside.removeprefix(first)
+                both = f"{name}({inside}){after}", f"{name}({first}){after}{rest}"
+                raise _unclear_argument(second, *both)
+            texts = [inside]
+        inside = ", ".join(texts)
+        level = "product" if base else "power" if power else "atom"
+        follow = _FUNCTIONS if circular and kind != "nested" else frozenset[str]()
+        follow = _AFTER_BRACKETS if kind == "shown" else follow
+        within = f"({inside})" if kind == "shown" else inside
+        unclear = f"{name}({within}{{}}){after}", f"{name}({inside}){after}{{}}"
+        text = unclear[1].format("")
+        return _Code(text, level, command.type, command.at, follow=follow, unclear=unclear)
+
+
+def _unclear_argument(at: int, one: str, other: str) -> Unclear:
+    why = f"the end of the function's argument is unclear: it may mean {one} or {other}"
+    return Unclear(at, why, "put the function and its argument in parentheses, as in (\\sin(a)) b")
 
 
 def _from_template(rule: str, *parts: Any) -> _Code:

@@ -21,7 +21,7 @@ from sympy.core.relational import Relational
 
 from derive.command.errors import BadText, BadUnit, DimensionMismatch, OpenUnits
 from derive.reading.improper import IMPROPER, as_integral
-from derive.reading.tree import parse
+from derive.reading.text import parse
 from derive.reading.value import Meaning
 from derive.reading.words import FUNCTIONS, Words
 from derive.symbols import x

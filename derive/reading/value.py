@@ -1,38 +1,27 @@
 """Convert the tree of a text to SymPy, in the order in which Python would evaluate it."""
 
-import ast
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from functools import reduce
-from itertools import pairwise
 from typing import Any
 
+from lark import Token
+from lark import Tree as Branch
 from sympy import Expr, Piecewise, Rational, pi, true
 from sympy.logic.boolalg import Boolean
 
 from derive.command.errors import BadText
 from derive.reading.limits import STEEPEST, fault
-from derive.reading.tree import Tree
-from derive.reading.words import PI, refusal
+from derive.reading.text import Call, Node, Tree, column
+from derive.reading.words import refusal
 
-_OPERATORS: dict[type[ast.operator | ast.cmpop | ast.boolop], Callable[[Any, Any], Any]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-    ast.Pow: operator.pow,
-    ast.Lt: operator.lt,
-    ast.LtE: operator.le,
-    ast.Gt: operator.gt,
-    ast.GtE: operator.ge,
-    ast.And: operator.and_,
-    ast.Or: operator.or_,
+_OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
+    **{"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv},
+    **{"**": operator.pow, "both": operator.and_, "either": operator.or_},
+    **{"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge},
 }
-
-MIRRORED: dict[type[ast.cmpop], type[ast.cmpop]] = {
-    **{ast.Lt: ast.Gt, ast.LtE: ast.GtE},
-    **{ast.Gt: ast.Lt, ast.GtE: ast.LtE},
-}
+_MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 """The same comparisons with their sides exchanged."""
 
 
@@ -51,88 +40,94 @@ class Meaning:
         self.tree = tree
         self.symbols = dict(symbols)
 
-    def value(self, node: ast.expr) -> Expr:
+    def value(self, node: Node) -> Expr:
         """The value of a node; raises BadText if the node is a condition."""
         match node:
-            case ast.Constant() if node.value is not True:
-                return Rational(self.tree.number(node))
-            case ast.Name(id=name):
-                return pi if name == PI else self.named(node)
-            case ast.UnaryOp(op=ast.USub()):
-                return self.step(node, operator.neg, self.value(node.operand))
-            case ast.BinOp():
+            case Token(type="NUMBER"):
+                return Rational(Fraction(str(node)))
+            case Token(type="PI"):
+                return pi
+            case Token(type="NAME"):
+                return self.named(node)
+            case Branch("prefixed", ["-", inner]):
+                return self.step(node, operator.neg, self.value(inner))
+            case Branch("prefixed", ["+", inner]):
+                return self.value(inner)
+            case Branch("operation"):
                 return self._operations(node)
-            case ast.Call(func=ast.Name(id="Piecewise")):
+            case Branch("call", ["Piecewise", *_]):
                 return self._piecewise(node)
-            case ast.Call(func=ast.Name(id=name)):
-                return self.call(node, name)
-        what = "a pair" if isinstance(node, ast.Tuple) else "a condition"
-        why = f"{what} cannot be used as a value"
+            case Branch("call", [name, *_]):
+                return self.call(node, str(name))
+        is_pair = isinstance(node, Branch) and node.data == "pair"
+        why = f"{'a pair' if is_pair else 'a condition'} cannot be used as a value"
         raise self.refusal(node, why, "write Piecewise((value, condition), ...), or use a point")
 
-    def named(self, node: ast.Name) -> Expr:
+    def named(self, node: Token) -> Expr:
         """The symbol of a name."""
-        return self.symbols[node.id]
+        return self.symbols[node]
 
-    def call(self, node: ast.Call, name: str) -> Expr:
+    def call(self, node: Call, name: str) -> Expr:
         """The value of a function call."""
         function = self.tree.words.functions[name].of_sympy
-        return self.step(node, function, *map(self.value, node.args))
+        return self.step(node, function, *map(self.value, node.children[1:]))
 
-    def _operations(self, node: ast.expr) -> Expr:
+    def _operations(self, node: Node) -> Expr:
         """The value of a chain of operations, from left to right."""
-        chain = list[ast.BinOp]()
-        while isinstance(node, ast.BinOp):
-            chain.append(node)
-            node = node.left
+        chain = list[Node]()
+        while isinstance(node, Branch) and node.data == "operation":
+            _, *after = node.children
+            chain += reversed(after)
+            node = node.children[0]
         result = self.value(node)
-        for each in reversed(chain):
-            operand, column = self.value(each.right), self.tree.after(each.left)
-            if isinstance(each.op, ast.Pow) and _is_steep(operand):
+        while chain:
+            sign, operand = chain.pop(), self.value(chain.pop())
+            if sign == "**" and _is_steep(operand):
                 why = "the exponent is too large"
-                raise self.refusal(column, why, f"use exponents up to {STEEPEST}")
-            result = self.step(column, _OPERATORS[type(each.op)], result, operand)
+                raise self.refusal(sign, why, f"use exponents up to {STEEPEST}")
+            result = self.step(sign, _OPERATORS[str(sign)], result, operand)
         return result
 
-    def _piecewise(self, node: ast.Call) -> Expr:
+    def _piecewise(self, node: Call) -> Expr:
         pairs = []
-        for pair in node.args:
-            if not isinstance(pair, ast.Tuple) or len(pair.elts) != 2:
-                why = "the arguments of Piecewise must be pairs"
-                raise self.refusal(pair, why, "write (value, condition), ...")
-            pairs.append((self.value(pair.elts[0]), self.condition(pair.elts[1])))
+        for pair in node.children[1:]:
+            match pair:
+                case Branch("pair", [value, condition]):
+                    pairs.append((self.value(value), self.condition(condition)))
+                case _:
+                    why = "the arguments of Piecewise must be pairs"
+                    raise self.refusal(pair, why, "write (value, condition), ...")
         return self.step(node, Piecewise, *pairs)
 
-    def condition(self, node: ast.expr) -> Boolean:
+    def condition(self, node: Node) -> Boolean:
         """The condition of a node; raises BadText if the node is a value."""
         match node:
-            case ast.Constant(value=True):
+            case Token(type="TRUE"):
                 return true
-            case ast.UnaryOp(op=ast.Not()):
-                return self.step(node, operator.invert, self.condition(node.operand))
-            case ast.BoolOp(op=joint, values=parts):
-                conditions = [self.condition(part) for part in parts]
-                return self.step(node, reduce, _OPERATORS[type(joint)], conditions)
-            case ast.Compare():
-                return self._comparison(node)
+            case Branch("negated", [_, inner]):
+                return self.step(node, operator.invert, self.condition(inner))
+            case Branch("both" | "either", parts):
+                conditions = [self.condition(part) for part in parts[::2]]
+                return self.step(node, reduce, _OPERATORS[node.data], conditions)
+            case Branch("comparison", [first, *others]):
+                return self._comparison(first, others)
         why = "a value cannot be used as a condition"
         raise self.refusal(node, why, "write a condition such as x < b, or True")
 
-    def _comparison(self, node: ast.Compare) -> Boolean:
+    def _comparison(self, first: Node, others: Sequence[Node]) -> Boolean:
         found = []
-        sides = pairwise((node.left, *node.comparators))
-        for order, (left, right) in zip(map(type, node.ops), sides, strict=True):
-            column = self.tree.after(left)
+        for left, at, right in zip((first, *others[1::2]), others[::2], others[1::2], strict=False):
+            order = str(at)
             if not self.tree.names(left):
                 if not self.tree.names(right):
                     why = "this compares two constants"
-                    raise self.refusal(column, why, "compare x with a position")
-                order, left, right = MIRRORED[order], right, left
-            found.append(self.step(column, _OPERATORS[order], self.value(left), self.value(right)))
+                    raise self.refusal(at, why, "compare x with a position")
+                order, left, right = _MIRRORED[order], right, left
+            found.append(self.step(at, _OPERATORS[order], self.value(left), self.value(right)))
         return reduce(operator.and_, found)
 
-    def step(self, at: ast.expr | int, compute: Callable[..., Any], *operands: Any) -> Any:
-        """The result of the operation at a node or a column.
+    def step(self, at: Node, compute: Callable[..., Any], *operands: Any) -> Any:
+        """The result of the operation at a node.
 
         It is refused if it is not a finite formula of real numbers.
         """
@@ -146,7 +141,6 @@ class Meaning:
             raise self.refusal(at, f"the result {why}", "write another formula")
         return result
 
-    def refusal(self, at: ast.expr | int, why: str, remedy: str) -> BadText:
-        """The error for the mistake at a node or a column."""
-        column = at if isinstance(at, int) else self.tree.column(at)
-        return refusal(self.tree.text, column, why, remedy)
+    def refusal(self, at: Node, why: str, remedy: str) -> BadText:
+        """The error for the mistake at a node."""
+        return refusal(self.tree.text, column(at), why, remedy)

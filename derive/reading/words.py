@@ -85,6 +85,14 @@ def _pole(angle: Expr) -> Switches:
     return [("pole", sympy.cos(angle))]
 
 
+def _one_over(function: Callable[[Expr], Expr]) -> Callable[[Expr], Expr]:
+    return lambda angle: 1 / function(angle)
+
+
+def _of_one_over(function: Callable[[Expr], Expr]) -> Callable[[Expr], Expr]:
+    return lambda ratio: function(1 / ratio)
+
+
 _OF_PROFILES = {
     "Abs": Function(sympy.Abs, switches=_kink),
     "sqrt": Function(sympy.sqrt),
@@ -97,10 +105,10 @@ _OF_PROFILES = {
     "log": Function(sympy.log, r"\ln \log", _logarithm),
     "sin": Function(sympy.sin, r"\sin", like="circular"),
     "cos": Function(sympy.cos, r"\cos", like="circular"),
-    "tan": Function(sympy.tan, r"\tan", _pole, "circular"),
+    "tan": Function(sympy.tan, r"\tan \tg", _pole, "circular"),
     "asin": Function(sympy.asin, r"\arcsin", _roots, "inverse circular"),
     "acos": Function(sympy.acos, r"\arccos", _roots, "inverse circular"),
-    "atan": Function(sympy.atan, r"\arctan", like="inverse circular"),
+    "atan": Function(sympy.atan, r"\arctan \arctg", like="inverse circular"),
     "sinh": Function(sympy.sinh, r"\sinh", like="hyperbolic"),
     "cosh": Function(sympy.cosh, r"\cosh", like="hyperbolic"),
     "tanh": Function(sympy.tanh, r"\tanh", like="hyperbolic"),
@@ -109,12 +117,26 @@ _OF_PROFILES = {
     "atanh": Function(sympy.atanh, r"\artanh", _logarithms, "inverse hyperbolic"),
 }
 _OF_CLAIMS = {
+    "cot": Function(_one_over(sympy.tan), r"\cot \ctg", like="reciprocal circular"),
+    "sec": Function(_one_over(sympy.cos), r"\sec", like="reciprocal circular"),
+    "csc": Function(_one_over(sympy.sin), r"\csc \cosec", like="reciprocal circular"),
+    "asec": Function(_of_one_over(sympy.acos), r"\arcsec", like="reciprocal circular"),
+    "acsc": Function(_of_one_over(sympy.asin), r"\arccsc", like="reciprocal circular"),
+    "coth": Function(_one_over(sympy.tanh), r"\coth", like="reciprocal hyperbolic"),
+    "sech": Function(_one_over(sympy.cosh), r"\sech", like="reciprocal hyperbolic"),
+    "csch": Function(_one_over(sympy.sinh), r"\csch \cosech", like="reciprocal hyperbolic"),
+    "acoth": Function(_of_one_over(sympy.atanh), r"\arcoth", like="reciprocal hyperbolic"),
+    "asech": Function(_of_one_over(sympy.acosh), r"\arsech", like="reciprocal hyperbolic"),
+    "acsch": Function(_of_one_over(sympy.asinh), r"\arcsch", like="reciprocal hyperbolic"),
     "elliptic_k": Function(sympy.elliptic_k, "", _logarithms_at_one, "elliptic"),
     "elliptic_e": Function(sympy.elliptic_e, "", _logarithms_at_one, "elliptic"),
     "elliptic_pi": Function(sympy.elliptic_pi, "", _logarithms_at_one, most=2, least=2),
     "gamma_function": Function(sympy.gamma, r"\Gamma"),
 }
-"""Further functions of claims; elliptic integrals are those of the parameter m = k**2."""
+"""Further functions of claims; elliptic integrals are those of the parameter m = k**2.
+
+The inverse of the cotangent has two conventions for negative numbers, so it is not among them.
+"""
 _ALIASES = {name.lower(): _OF_PROFILES[name] for name in ("Abs", "Max", "Min")}
 
 FUNCTIONS_OF_PROFILES = {**_OF_PROFILES, **_ALIASES}
@@ -129,10 +151,10 @@ COMMANDS = {
 """The function for each command of LaTeX."""
 
 PI, TRUE = "pi", "True"
-LOGICAL = {"&": "and", "|": "or", "~": "not"}
-"""The signs of the logical operators, and the equivalent words."""
+LOGICAL = {"and": "AND", "or": "OR", "not": "NOT"}
+"""The logical operators, with their terminals in text.lark."""
 
-KEYWORDS = frozenset(keyword.kwlist) - {TRUE, *LOGICAL.values()}
+KEYWORDS = frozenset(keyword.kwlist) - {TRUE, *LOGICAL}
 """Keywords of Python that are not allowed in a formula."""
 
 

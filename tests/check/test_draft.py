@@ -113,7 +113,7 @@ PHYSICS = r"""
 The normal load, $P$, acts.
 \begin{align} p(x) &= \half{P} \sgn(x) \label{one} \\
 p(0) &= P, \quad |x| < a \label{two} \end{align}
-\begin{equation} P = p(x - s) \end{equation}
+\begin{equation} P = p(\sqrt{s}) \end{equation}
 \begin{equation} \frac{d}{dx} p(x) = 0 \end{equation}
 In a line $a = \half{b}$ may stand.
 \end{document}

@@ -65,7 +65,7 @@ a = \left{ b + c \right} d :: a = (b + c)*d
 \boxed{a \stackrel{\mathrm{def}}{=} b} :: a = b
 \left\{\begin{aligned} a &= b \\ c &= d \end{aligned}\right. :: a = b; c = d
 p_m := \frac{P}{2a} :: p_m = P/(2*a)
-E^\star = E^{\ast}_1 :: E_star = E_star_1
+E^\star = E^{\ast}_1 :: E_star = E_1_star
 \begin{array}{rcl} a &=& b c \\ d &=& 2 a \end{array} :: a = b*c; d = 2*a
 y = 1{,}5 a + 0{,}125 :: y = 1.5*a + 0.125
 q = p(x;a) - p(x;c) :: q = p_at_x_a - p_at_x_c
@@ -84,6 +84,22 @@ a = b \quad\text{and}\quad c = d; :: a = b; c = d
 a \pm b = \mp c :: a + b = -c; a - b = c
 a = {b \over c} :: a = b/c
 \begin{split} a &= b \\ &+ c \end{split} :: a = b + c
+q = -f p \mathop{\mathrm{sgn}}(x) + \mathop{\rm sgn}\nolimits a :: q = -f*p*sign(x) + sign(a)
+u = \Xint-_0^1 \frac{ds}{s} + \dashint_0^1 s\,ds :: u = pv(1/s, s, 0, 1) + pv(s, s, 0, 1)
+u = \mathop{\mathrm{p.v.}}\!\int_0^1 \frac{ds}{s - x} :: u = pv(1/(s - x), s, 0, 1)
+y = \cos\frac{1}{2}(\theta + \theta_0) \sin x :: y = cos(1/2*(theta + theta_0))*sin(x)
+y = \sinh\tfrac12\left[a - b\right] :: y = sinh(1/2*(a - b))
+y = \sin 2(\theta-\phi) + \sin\frac{3}{2}\theta :: y = sin(2*(theta - phi)) + sin(3/2*theta)
+y = \ln\tan\frac{\phi_0}{2} - \ln\cot^2 x :: y = log(tan(phi_0/2)) - log(cot(x)**2)
+y = \tan\arccos\frac{c}{a} + b\,\mathrm{ctg}\,x :: y = tan(acos(c/a)) + b*cot(x)
+y = \frac{\sec x}{\cot x} + \coth x :: y = sec(x)/cot(x) + coth(x)
+y = \sec^{-1} x + \operatorname{arsech} x :: y = asec(x) + asech(x)
+y = \operatorname{sech}^2 x + \mathrm{arccoth}\,x :: y = sech(x)**2 + acoth(x)
+y = c^2_{\text{stick}} - K^{*}_N :: y = c_stick**2 - K_N_star
+u_x^{(1)} = u_x^{(2)} + x^{(k)} :: u_x_upper1 = u_x_upper2 + x_upperk
+y = f_{,x} - f_x + \int_{x=0}^{a} x\,dx :: y = f_comma_x - f_x + integral(x, x, 0, a)
+\mathcal{P}(x) = \ddot{u} + \check v :: P_cal_at_x = u_ddot + v_check
+y = \begin{cases} 1 & x = 0 \end{cases} :: y = Piecewise((1, (x <= 0 and x >= 0)))
 \begin{split} a &= 2 \left( b + \right. \\ & \left. c \right) \end{split} :: a = 2*(b + c)
 """
 
@@ -135,7 +151,23 @@ g = \begin{cases} \end{cases} :: complete it as in \begin{cases} a & x < b
 g = \begin{cases} 0 & x \\ 1 & x < b \end{cases} :: this is not a condition
 g = \begin{cases} 0 & x < b \text{ or } x > c, b > 0 \end{cases} :: joined by `or`, and others by
 g = \begin{cases} 0 & \text{inside} \\ 1 & x > b \end{cases} :: the words 'inside'
-A = \begin{array}{cc} a & b \end{array} :: \begin{array} inside a display
+y = \cos\frac{\theta}{2}(1 + b) :: mean cos(theta/2*(1 + b)) or cos(theta/2)*(1 + b), at `(1 + b)`
+y = \ln\frac{1}{2}(a + b) :: it may mean log(1/2*(a + b)) or log(1/2)*(a + b), at `(a + b)`
+y = \tan^{-1}\frac{1}{2}(a + b) :: it may mean atan(1/2*(a + b)) or atan(1/2)*(a + b)
+y = \sin^2 n\theta :: it may mean sin(n*theta)**2 or sin(n)**2*theta, at `\theta`
+y = \ln\sin x\cos x :: it may mean log(sin(x)*cos(x)) or log(sin(x))*cos(x)
+y = \cos a / b :: it may mean cos(a/b) or cos(a)/b
+y = \sin(a)^2 :: it may mean sin((a)**2) or sin(a)**2
+y = \cot^{-1} x :: index or power of \cot is unclear
+y = \sum_{k=1}^{3} b_k k :: b_k differs in each term of a sum, at `b_k k`
+y = \lim_{x\to a^-} p :: a limit from one side is not read, at `a^-} p`
+y = \int_{s=0}^{a} x\,dx :: the limits are those of s, but the integral is over x
+y = x^{(k+1)} :: whether the parentheses hold an exponent or an index, at `(k+1)}`
+y = \max p :: it is unclear over what \max of one quantity is taken
+\left.\frac{dp}{dx}\right|_{x=a} = 0 :: a value at a point, or between two, is not read, at `|_{x
+\begin{array}{c|cc} n & A_n & B_n \\ 0 & 1.1 & 2.2 \end{array} :: \begin{array} is a table
+\begin{pmatrix} u \\ v \end{pmatrix} = 0 :: \begin{pmatrix} is a table or a matrix
+A = \begin{array}{cc} a & b \end{array} :: \begin{array} is a table
 a = \frac{b}{c} + \star d :: at `\star d`
 y = a \quad\over b = c :: \over divides the whole display
 K_{\beginh} = a :: \beginh
@@ -307,6 +339,56 @@ def test_macros_are_not_glued_to_their_neighbours_and_eqno_gives_the_number(tmp_
     (one,) = displays(path).found
     assert one.latex.startswith(r"\pi E^{*} a = \alpha x + 2\pi y + z - #2")
     assert one.number == "4.3"
+
+
+def test_a_table_outside_displays_is_told_and_hides_no_display(tmp_path: Path) -> None:
+    rows = r"n & 1 & 2 \\ $A_n$ & 0.5 & 0.7 \\ & \multicolumn{2}{c}{$$ a = b $$}"
+    head = r"\begin{tabular}{cc} name & material \end{tabular}"
+    made = drafted(tmp_path, f"\n{head} \\begin{{tabular}}{{c|cc}} {rows} \\end{{tabular}}")
+    assert (made.environments, made.understood) == (1, 1)
+    (told,) = made.told("unchecked")
+    assert told.startswith(
+        r"paper.tex:2: \begin{tabular} is a table or a matrix, which is not read"
+    )
+
+
+VALUES = r"""
+p(a - s) = K \sqrt{s} :: p_at_a_minus_s = K*sqrt(s)
+p(-x) = p(|x|) :: p_at_minus_x = p_at_abs_x
+p\left(\frac{a}{2}\right) = p(2c/3) :: p_at_a_over_2 = p_at_2_c_over_3
+K = p(x - s, c) :: K = p_at_x_minus_s_c
+p_0(a - s) = K :: p_0*(a - s) = K
+p(\sin y) = K :: p is a function elsewhere, so it is unclear whether it is a factor here
+"""
+
+
+@pytest.mark.parametrize(("latex", "text"), table(VALUES))
+def test_a_function_is_read_at_another_argument(latex: str, text: str, tmp_path: Path) -> None:
+    """Here p is printed as a function, and never alone."""
+    *_, one = claims(tmp_path, rf"\[ p(x) = p_0 \] \[ {latex} \]")
+    assert str(one.get("understood", one.get("unchecked"))).startswith(text)
+    *_, one = claims(tmp_path, r"\[ p(x) = p_0 \] \[ p = p(a - s) \]")
+    assert one["understood"] == "p = p*(a - s)"
+
+
+SUBSTITUTIONS = r"""
+x = b\sin\phi :: phi = { is = 'asin(x/b)' }
+x = e + a\cos\theta :: theta = { is = 'acos((-e + x)/a)' }
+s = a\cosh u :: u = { is = 'acosh(s/a)' }
+b = a\sin\phi ::
+x = b\sin\phi + c\phi ::
+x = b\sin^2\phi ::
+"""
+
+
+@pytest.mark.parametrize(("latex", "line"), table(SUBSTITUTIONS))
+def test_a_substitution_is_told_with_the_line_that_defines_its_angle(
+    latex: str, line: str, tmp_path: Path
+) -> None:
+    told = drafted(tmp_path, rf"\[ {latex} \]").told("note")
+    assert len(told) == bool(line)
+    assert not line or f"if this substitution defines {line.partition(' ')[0]}, write" in told[0]
+    assert not line or told[0].endswith(f"write {line} under [symbols]")
 
 
 def test_rows_have_their_own_labels(tmp_path: Path) -> None:

@@ -28,7 +28,7 @@ from derive.command.errors import BadText
 from derive.command.new_geometry import _Exact
 from derive.reading.limits import LARGEST, MOST_TERMS, STEEPEST, terms
 from derive.reading.profile import OF_PROFILES, parameters, read, tree_of
-from derive.reading.tokens import LONGEST
+from derive.reading.text import LONGEST
 from derive.reading.words import ALLOWED, FUNCTIONS
 from derive.symbols import x
 
