@@ -200,6 +200,7 @@ class Coverage(StrEnum):
     TO_ACCEPT = "to be accepted"
     NOT_READ = "not read"
     BODY = f"held from {Basis.BODY}"
+    BOTH = f"held from {Basis.BOTH}"
     DEFINITIONS = f"held from {Basis.DEFINITIONS}"
     GIVEN = f"held from {Basis.GIVEN} claims"
     MATHEMATICS = f"held from {Basis.MATHEMATICS}"
@@ -207,7 +208,7 @@ class Coverage(StrEnum):
     @property
     def is_held(self) -> bool:
         """Whether the claim is shown to be true."""
-        return self in (self.BODY, self.DEFINITIONS, self.GIVEN, self.MATHEMATICS)
+        return self.name in Basis.__members__
 
 
 def covered(finding: Finding) -> Coverage:
