@@ -203,6 +203,7 @@ class _Equation:
         places = {place: SIGNED for place in PLACES.values()}
         ranges = {**places, **self.declared.ranges, **self._ranges()}
         named = _names_in(self.left, self.right)
+        calls = {symbol: call for call, symbol in self._calls.items()}
         is_equal = self.relation == Relation.LIKE and not (entry.approach or entry.leading)
         return AsMeant(
             left=left,
@@ -223,7 +224,7 @@ class _Equation:
             given=self.given,
             rounded=_rounded(self.text, self._names()),
             swaps=self._swaps(named),
-            unit_of=context.units_of(named | held),
+            unit_of=context.units_of({**{s: s for s in named | held}, **calls}),
         )
 
     def against(self) -> str:

@@ -12,7 +12,6 @@ from typing import Any
 from sympy import Derivative, Expr, Integral, Limit, Piecewise, Symbol
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
-from sympy.printing.str import StrPrinter
 
 from derive.check.bodies import ProvenBody, placed
 from derive.check.mistakes import TimeLimit
@@ -25,6 +24,7 @@ from derive.reading.improper import (
     PrincipalValue,
     ordinary,
     proper,
+    typed,
 )
 from derive.reading.units import Call, Dimension, Units, parse_unit
 from derive.sheet.formulas import FormulaSheet
@@ -210,38 +210,15 @@ class Context:
         except UserError:
             return ""
 
-    def units_of(self, symbols: Iterable[Symbol]) -> dict[Symbol, str]:
-        """Return the units of variables and symbols, where they are known."""
-        found = {each: self._known_units.unit_of(each) for each in sorted(symbols, key=str)}
+    def units_of(self, meant: Mapping[Symbol, Expr]) -> dict[Symbol, str]:
+        """Return the units of symbols that stand for expressions, where they are known."""
+        found = {each: self._known_units.unit_of(meant[each]) for each in sorted(meant, key=str)}
         return {symbol: unit for symbol, unit in found.items() if unit}
-
-
-class _Typed(StrPrinter):
-    """Writes calls as a user would type them."""
-
-    def _print_Integral(self, over: Expr) -> str:
-        inside = str(self._print(over.function))
-        for limits in over.limits:
-            inside = f"integral({inside}, {self.stringify(limits, ', ')})"
-        return inside
-
-    def _print_ToInfinity(self, call: Expr) -> str:
-        return f"integral({self.stringify(call.args, ', ')}, oo)"
-
-    def _print_PrincipalValue(self, call: Expr) -> str:
-        return f"pv({self.stringify(call.args, ', ')})"
-
-    def _print_Limit(self, call: Expr) -> str:
-        return f"limit({self.stringify(call.args[:3], ', ')})"
-
-    def _print_Derivative(self, call: Expr) -> str:
-        ((along, times),) = call.variable_count
-        return f"diff({self._print(call.expr)}, {along}" + (f", {times})" if times != 1 else ")")
 
 
 def as_text(expr: Expr) -> str:
     """Return an expression as a user would type it."""
-    return str(_Typed().doprint(expr))
+    return str(typed(expr))
 
 
 def integrals(*exprs: Expr) -> list[Integral]:

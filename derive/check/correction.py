@@ -4,29 +4,33 @@ The changes come in batches.  Those that agree at a few points are judged like t
 the plainest first, until one of them is true.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import islice
 from typing import Any
 
 import mpmath
 from sympy import Expr, Symbol, Tuple, count_ops, sign
 
-from derive.check.claim import Claim, Point, Verdict
+from derive.check.claim import Basis, Claim, Point, Verdict
 from derive.check.diagnosis import quotient, simple
 from derive.check.draw import has_integral, points, variables
 from derive.check.judge import Judged, Sides, judge, no_clock
 from derive.check.numbers import near
-from derive.check.repair import KINDS, WHOLE, Swaps, edits, swappable
+from derive.check.repair import KINDS, WHOLE, Names, edits, swappable
 from derive.check.tending import Approach
 from derive.command.limit import LookAtClock
 from derive.proof.values import Undecided, evaluated
 from derive.reading.relation import Relation
+from derive.reading.units import Units, parse_unit
 
 _SCREENED = 3
 """Number of points at which a correction is screened before it is judged in full."""
 _DRAWN = 16
 """Number of points from which those points are chosen."""
+_LARGEST = 2
+"""The largest power in a factor that may be lost."""
 _FIRSTS = 12
 """The largest number of first changes that are combined with a second one."""
 
@@ -37,6 +41,7 @@ class Repair:
 
     change  the kind of the change, and what was changed
     judged  the evidence that it is true, once it has been judged
+    on_left whether the left side was changed
     also    other changes that passed the screening, in words
     """
 
@@ -46,12 +51,14 @@ class Repair:
     kind: str
     change: str
     judged: Judged
+    on_left: bool = False
     also: tuple[str, ...] = ()
 
     @property
-    def plainness(self) -> tuple[int, int, str]:
-        """A sort key: the plainest equation comes first."""
-        return count_ops(self.left) + count_ops(self.right), KINDS.index(self.kind), self.change
+    def plainness(self) -> tuple[int, int, bool, str]:
+        """A sort key: the plainest equation comes first, and the right side before the left one."""
+        length = count_ops(self.left) + count_ops(self.right)
+        return length, KINDS.index(self.kind), self.on_left, self.change
 
     def is_identity(self) -> bool:
         """Whether the sides are the same expression, as p and sqrt(p**2) are for positive p."""
@@ -73,6 +80,8 @@ def repaired(claim: Claim, look: LookAtClock = no_clock) -> tuple[Repair | None,
             tried += 1
             if claim.meant.is_inequality or (not each.is_identity() and screen.fits(each)):
                 fitting.append(each)
+        if claim.meant.toward is not None:
+            fitting = [*_outstanding(fitting)]
         for each in sorted(fitting, key=lambda one: one.plainness):
             of_its_relation = claim.changed(relation=each.relation)
             judged = judge(of_its_relation, each.left, each.right, claim.meant.meaning, look)
@@ -85,6 +94,18 @@ def repaired(claim: Claim, look: LookAtClock = no_clock) -> tuple[Repair | None,
     return None, tried
 
 
+def _outstanding(fitting: Sequence[Repair]) -> Sequence[Repair]:
+    """Return the changes that lead to the only equation of their kind, if there is one.
+
+    Near a limit, a term that does not matter there may be changed in many ways, or left out.
+    """
+    side = [each for each in fitting if not each.on_left] or fitting
+    kinds = [KINDS.index(each.kind) for each in side]
+    if KINDS.index("term") not in kinds:
+        side = [each for each in side if KINDS.index(each.kind) == min(kinds)]
+    return side if len({(each.left, each.right) for each in side}) == 1 else []
+
+
 # ------------------------------------------------------------------ candidates
 
 
@@ -92,9 +113,9 @@ def _batches(claim: Claim) -> Iterator[Iterable[Repair]]:
     """Yield changes of which the simplest true one is chosen, batch by batch.
 
     An inequality may be an equation, or the opposite inequality.  For an equation, single changes
-    come first, and then the constant by which the sides differ.  If none of them is sufficient,
-    pairs of changes are tried.  If each trial is slow, single changes are tried kind by kind,
-    beginning with those of a whole side.
+    come first, and then the factor by which the sides differ.  If none of them is sufficient, pairs
+    of changes are tried.  If each trial is slow, changes of a whole side are tried first, and then
+    single changes, kind by kind; near a limit, they are compared with each other.
     """
     if claim.meant.is_inequality:
         for relation in (Relation.EQUAL, claim.meant.relation.turned):
@@ -104,12 +125,17 @@ def _batches(claim: Claim) -> Iterator[Iterable[Repair]]:
                 yield [Repair(*sides, relation, "relation", change, _NOT_YET)]
         return
     single = _single(claim)
-    if has_integral(claim) or claim.meant.toward is not None:
+    near_limit = claim.meant.toward is not None
+    if has_integral(claim) or near_limit:
         every = list(single)
         yield (each for each in every if each.change.endswith(WHOLE))
+        in_part = [each for each in every if not each.change.endswith(WHOLE)]
+        if near_limit:
+            yield in_part
+            return
         yield _scaled(claim)
         for kind in KINDS:
-            yield (e for e in every if e.kind == kind and not e.change.endswith(WHOLE))
+            yield (each for each in in_part if each.kind == kind)
     else:
         yield single
         yield _scaled(claim)
@@ -117,7 +143,8 @@ def _batches(claim: Claim) -> Iterator[Iterable[Repair]]:
 
 
 def _changed(claim: Claim, left: Expr, right: Expr, kind: str, what: str) -> Repair:
-    return Repair(left, right, claim.meant.relation, kind, f"{kind} {what}", _NOT_YET)
+    on_left = left != claim.meant.left
+    return Repair(left, right, claim.meant.relation, kind, f"{kind} {what}", _NOT_YET, on_left)
 
 
 def swaps_on_right(claim: Claim) -> tuple[Symbol, ...]:
@@ -129,36 +156,61 @@ def swaps_on_right(claim: Claim) -> tuple[Symbol, ...]:
     return tuple(name for name in claim.meant.swaps if keep or name != claim.meant.left)
 
 
-def _swaps(claim: Claim, names: tuple[Symbol, ...]) -> Swaps:
-    return swappable(names, {} if claim.units else claim.meant.unit_of)
+def _units_fit(claim: Claim, left: Expr, right: Expr) -> bool:
+    """Whether the units of an equation fit, as far as they are known."""
+    known = {symbol: parse_unit(unit) for symbol, unit in claim.meant.unit_of.items()}
+    return not Units(known).mismatch(left, right)
+
+
+def _names(claim: Claim, swaps: tuple[Symbol, ...], other: Expr) -> Names:
+    """Return the names for changes of one side, of which the other side stays."""
+    units = claim.meant.unit_of.items()
+    known = {symbol: parse_unit(unit) for symbol, unit in units if symbol != other}
+    fits = partial(_units_fit, claim, other) if claim.units else None
+    return swappable(swaps, known, fits)
 
 
 def _single(claim: Claim) -> Iterator[Repair]:
-    for edit in edits(claim.meant.right, _swaps(claim, swaps_on_right(claim))):
-        yield _changed(claim, claim.meant.left, edit.expr, edit.kind, edit.what)
-    if not isinstance(claim.meant.left, Symbol):
-        for edit in edits(claim.meant.left, _swaps(claim, claim.meant.swaps)):
-            yield _changed(claim, edit.expr, claim.meant.right, edit.kind, edit.what)
+    left, right = claim.meant.left, claim.meant.right
+    for edit in edits(right, _names(claim, swaps_on_right(claim), left)):
+        yield _changed(claim, left, edit.expr, edit.kind, edit.what)
+    if not isinstance(left, Symbol):
+        for edit in edits(left, _names(claim, claim.meant.swaps, right)):
+            yield _changed(claim, edit.expr, right, edit.kind, edit.what)
 
 
 def _scaled(claim: Claim) -> Iterator[Repair]:
-    """Yield the equation with the constant by which its sides differ, if it is simple."""
-    through, toward = claim.meant.through, claim.meant.toward
-    if through is not None or toward is not None or not variables(claim):
+    """Yield the equation with the factor by which its sides differ, if it is simple."""
+    if claim.meant.through is not None or not variables(claim):
         return
     ratio = quotient(claim)
-    factor = simple(ratio.constant) if ratio is not None and ratio.powers == 1 else None
-    if factor is not None:
+    constant = simple(ratio.constant) if ratio is not None else None
+    if ratio is not None and constant is not None and _may_be_lost(claim, ratio.powers):
+        factor = constant * ratio.powers
         what = f"{factor} on {WHOLE}"
         yield _changed(claim, claim.meant.left, factor * claim.meant.right, "factor", what)
 
 
+def _may_be_lost(claim: Claim, powers: Expr) -> bool:
+    """Whether a product of powers may be a factor that is lost.
+
+    It is a power of one name, or of a bracket with printed names.  The units must need it, or the
+    formulas of the body, because any definition can be made true by a name that it does not have.
+    """
+    if powers == 1:
+        return True
+    sizes = {abs(power) for power in powers.as_powers_dict().values()}
+    is_one = len(powers.free_symbols) == 1 or powers.free_symbols <= claim.meant.right.free_symbols
+    is_needed = bool(claim.units) or claim.meant.basis == Basis.BODY
+    return is_needed and is_one and len(sizes) == 1 and max(sizes) <= _LARGEST
+
+
 def _double(claim: Claim) -> Iterator[Repair]:
     """Yield pairs of changes of the right side, of which the first is a sign or a swap."""
-    swaps = _swaps(claim, swaps_on_right(claim))
-    firsts = (e for e in edits(claim.meant.right, swaps, plain=True) if e.kind in ("sign", "swap"))
+    names = _names(claim, swaps_on_right(claim), claim.meant.left)
+    firsts = (e for e in edits(claim.meant.right, names, plain=True) if e.kind in ("sign", "swap"))
     for first in islice(firsts, _FIRSTS):
-        for second in edits(first.expr, swaps, plain=True):
+        for second in edits(first.expr, names, plain=True):
             what = f"{first.what} and {second.kind} {second.what}"
             yield _changed(claim, claim.meant.left, second.expr, first.kind, what)
 
@@ -192,7 +244,8 @@ class _Screen:
         try:
             if self.approach is not None:
                 found, _ = self.approach.judged(sides.in_variables, self.look)
-                return found == Verdict.NUMERICAL
+                fit = found == Verdict.NUMERICAL
+                return fit and _units_fit(self.claim, candidate.left, candidate.right)
             return all(
                 near(*sides.at_points, sides.numbers(point)) and sides.pair(point).agree
                 for point in self.points

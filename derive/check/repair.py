@@ -5,13 +5,15 @@ written there instead.  The rules do not depend on the paper.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import chain
 
 from sympy import (
     Abs,
     Add,
+    Basic,
     Expr,
+    Function,
     Integral,
     Mul,
     Pow,
@@ -24,12 +26,17 @@ from sympy import (
     sqrt,
 )
 
+from derive.reading.improper import typed
+from derive.reading.units import NUMBER, Dimension
 from derive.reading.words import FUNCTIONS
 
 WHOLE = "the whole expression"
 """The end of `Edit.what` for a change of a whole side."""
 
-KINDS = ("sign", "factor", "swap", "function", "exponent", "term", "modulus", "relation")
+KINDS = (
+    *("sign", "factor", "swap", "function", "exponent"),
+    *("angle", "term", "modulus", "limit", "relation"),
+)
 """The kinds of changes, in the order of preference."""
 
 _FACTORS = tuple(
@@ -39,8 +46,22 @@ _OF_A_TERM, _OF_A_ROOT = _FACTORS[:6], _FACTORS[12:]
 _LIKE = {each.of_sympy: each.like for each in FUNCTIONS.values() if each.like}
 """The family of each function; those of one family may have been confused with each other."""
 
-Swaps = Mapping[Symbol, Sequence[Symbol]]
-"""For each name that may have been confused with others, these others."""
+_LOST = tuple(sign * n for n in (S.One, S.Half, S(2)) for sign in (1, -1))
+"""Powers of a name that may have been lost, or that is printed once too often."""
+
+
+@dataclass(frozen=True)
+class Names:
+    """The names in an equation.
+
+    swaps  for each name that may have been confused with others, these others
+    units  the units of the names, where they are known
+    fits   if the units of the equation do not fit: whether they fit with another expression
+    """
+
+    swaps: Mapping[Symbol, Sequence[Symbol]] = field(default_factory=dict)
+    units: Mapping[Symbol, Dimension] = field(default_factory=dict)
+    fits: Callable[[Expr], bool] | None = None
 
 
 @dataclass(frozen=True)
@@ -56,16 +77,17 @@ class Edit:
 class Place:
     """A part of an expression that is changed.
 
-    within  the only sum, product, power or integral in which it is changed; None for all
+    within  the only sum, product, power, call or range of an integral in which it is changed; None
+            for all
     name    the part in words
     """
 
     part: Expr
-    within: Expr | None = None
+    within: Basic | None = None
     name: str = ""
 
     def __str__(self) -> str:
-        return self.name or str(self.part)
+        return self.name or str(typed(self.part))
 
     def put(self, expr: Expr, other: Expr) -> Expr:
         """Return `expr` with the other part."""
@@ -80,27 +102,36 @@ _Changed = Iterable[tuple[str, Expr]]
 """What is changed, in words, and what is written in that place."""
 
 
-def swappable(names: Sequence[Symbol], units: Mapping[Symbol, str]) -> Swaps:
-    """Return for each name the others, except those that are known to have another unit."""
-    return {
-        one: [n for n in names if n != one and len({units[m] for m in {one, n} & units.keys()}) < 2]
+def swappable(
+    names: Sequence[Symbol],
+    units: Mapping[Symbol, Dimension],
+    fits: Callable[[Expr], bool] | None = None,
+) -> Names:
+    """Return for each name the others; those of another unit only if the units do not fit."""
+    own = {} if fits else units
+    swaps = {
+        one: [n for n in names if n != one and len({own[m] for m in {one, n} & own.keys()}) < 2]
         for one in names
     }
+    return Names(swaps, units, fits)
 
 
-def edits(expr: Expr, swaps: Swaps | None = None, plain: bool = False) -> Iterator[Edit]:
+def edits(expr: Expr, names: Names | None = None, plain: bool = False) -> Iterator[Edit]:
     """Yield all changes of one side; each differs from `expr` and from all others.
 
     plain: whether only signs, names and factors of a whole side are changed
     """
-    seen = {expr}
+    seen, names = {expr}, names or Names()
     for kind, places, changes in _RULES[: _PLAIN if plain else None]:
         for place in places(expr):
-            for what, other in changes(place, swaps or {}):
+            for what, other in changes(place, names):
                 changed = place.put(expr, other)
-                if changed not in seen and not changed.has(S.NaN, S.ComplexInfinity):
-                    seen.add(changed)
-                    yield Edit(kind, what, changed)
+                if changed in seen or changed.has(S.NaN, S.ComplexInfinity):
+                    continue
+                if changes is _lost and names.fits and not names.fits(changed):
+                    continue
+                seen.add(changed)
+                yield Edit(kind, what, changed)
 
 
 # ------------------------------------------------------------------ places
@@ -136,6 +167,12 @@ def _inside(*kinds: type, of: type = Expr) -> _Places:
     ]
 
 
+def _ends(expr: Expr) -> list[Place]:
+    """Return the ends of all integrals."""
+    limits = (limit for over in _all(Integral)(expr) for limit in over.part.args[1:])
+    return [Place(end, limit) for limit in limits for end in limit.args[1:]]
+
+
 def _brackets(expr: Expr) -> list[Place]:
     """Return the products, except those that are arguments of functions."""
     arguments = {arg for call in _calls(expr) for arg in call.part.args}
@@ -149,7 +186,7 @@ def _any(*rules: _Places) -> _Places:
 # ------------------------------------------------------------------ changes
 
 
-def _scaled(place: Place, swaps: Swaps) -> _Changed:
+def _scaled(place: Place, names: Names) -> _Changed:
     """Write another factor, or make the number of a term larger or smaller by one."""
     factors = [*(_FACTORS if place.within is None else _OF_A_TERM)]
     if place.within and any(n.exp.is_Rational and n.exp.q > 1 for n in place.part.atoms(Pow)):
@@ -164,18 +201,18 @@ def _scaled(place: Place, swaps: Swaps) -> _Changed:
         yield f"{factor} on {place}", factor * place.part
 
 
-def _argument_scaled(place: Place, swaps: Swaps) -> _Changed:
+def _argument_scaled(place: Place, names: Names) -> _Changed:
     call = place.part
     if len(call.args) == 1 and not isinstance(call, Abs | sign):
         for factor in (S(2), S.Half):
             yield f"{factor} on the argument of {place}", call.func(factor * call.args[0])
 
 
-def _swapped(place: Place, swaps: Swaps) -> _Changed:
+def _swapped(place: Place, names: Names) -> _Changed:
     """Write one name for another, exchange two, or write the mean of both or the reciprocal."""
     expr, end = place.part, " under the integral" if place.within else ""
-    held = [name for name in swaps if expr.has(name)]
-    pairs = [(one, other) for one in held for other in swaps[one]]
+    held = [name for name in names.swaps if expr.has(name)]
+    pairs = [(one, other) for one in held for other in names.swaps[one]]
     for one, other in pairs:
         yield f"{other} for {one}{end}", expr.xreplace({one: other})
     for one, other in pairs:
@@ -192,14 +229,44 @@ def _swapped(place: Place, swaps: Swaps) -> _Changed:
         yield f"{1 / one} for {one}{end}", expr.xreplace({one: 1 / one})
 
 
-def _other_function(place: Place, swaps: Swaps) -> _Changed:
+def _other_function(place: Place, names: Names) -> _Changed:
     call = place.part
     for other, family in _LIKE.items():
         if other != call.func and family == _LIKE.get(call.func):
             yield f"{other.__name__} for {place}", other(*call.args)
 
 
-def _other_exponent(place: Place, swaps: Swaps) -> _Changed:
+def _complement(place: Place, names: Names) -> _Changed:
+    if names.units.get(place.part) == NUMBER:
+        yield f"{pi / 2 - place.part} for {place}", pi / 2 - place.part
+
+
+def _lost(place: Place, names: Names) -> _Changed:
+    """Write a power of one name as another factor; the units decide which one fits."""
+    for name, unit in names.units.items() if names.fits else ():
+        if unit != NUMBER:
+            yield from ((f"{name**n} on {place}", name**n * place.part) for n in _LOST)
+
+
+def _other_ratio(place: Place, names: Names) -> _Changed:
+    """Write the quotient of two names with the same unit as another factor of a term."""
+    held = [name for name in names.swaps if name in names.units and place.part.has(name)]
+    for one in held:
+        for other in names.swaps[one]:
+            if names.units.get(other) == names.units[one] != NUMBER:
+                yield from ((f"{n} on {place}", n * place.part) for n in (one / other, other / one))
+
+
+def _other_end(place: Place, names: Names) -> _Changed:
+    """Write zero, another name, or the opposite of one or of the other end."""
+    ends = [-end for end in place.within.args[1:]] if place.within else []
+    alike = [n for n, unit in names.units.items() if unit == names.units.get(place.part)]
+    others = [n for n in dict.fromkeys((*names.swaps, *alike)) if n != place.part]
+    for end in (S.Zero, *ends, *others, *(-name for name in others)):
+        yield f"{end} for {place} as an end of the integral", end
+
+
+def _other_exponent(place: Place, names: Names) -> _Changed:
     """Change the exponent of a factor, or of all factors with the same modulus of it.
 
     These may have been a bracket, perhaps with a number, over which SymPy distributes its exponent.
@@ -230,7 +297,7 @@ def _other_exponent(place: Place, swaps: Swaps) -> _Changed:
                 yield f"{other} on {bracket}{end}", changed
 
 
-def _upside_down(place: Place, swaps: Swaps) -> _Changed:
+def _upside_down(place: Place, names: Names) -> _Changed:
     """Invert the number of a product, or exchange a factor and a divisor."""
     number, rest = place.part.as_coeff_Mul()
     if number not in (1, -1):
@@ -238,20 +305,23 @@ def _upside_down(place: Place, swaps: Swaps) -> _Changed:
     divisors = [n for n in Mul.make_args(rest) if isinstance(n, Pow) and n.exp.is_negative]
     for factor in (n for n in Mul.make_args(rest) if n not in divisors and rest != n):
         for divisor in divisors:
-            changed = place.part / (factor * divisor) ** 2
+            changed = Mul(*(1 / n if n in (factor, divisor) else n for n in place.part.args))
             yield f"{factor} and {1 / divisor} exchanged", changed
 
 
-_RULES: tuple[tuple[str, _Places, Callable[[Place, Swaps], _Changed]], ...] = (
+_RULES: tuple[tuple[str, _Places, Callable[[Place, Names], _Changed]], ...] = (
     ("sign", _any(_whole, _inside(Add), _calls), lambda p, _: [(f"of {p}", -p.part)]),
     ("swap", _any(_whole, _inside(Integral)), _swapped),
     ("factor", _whole, _scaled),
     ("factor", _inside(Add), _scaled),
     ("factor", _calls, _argument_scaled),
+    ("factor", _any(_whole, _inside(Add, Function)), _lost),
+    ("factor", _inside(Add), _other_ratio),
     ("function", _calls, _other_function),
     ("exponent", _any(_whole, _names, _all(Add), _all(Pow), _brackets), _other_exponent),
     ("exponent", _inside(Add, of=Symbol), _other_exponent),
     ("exponent", _all(Mul), _upside_down),
+    ("angle", _names, _complement),
     ("term", _inside(Add), lambda p, _: [(f"without {p}", S.Zero)]),
     ("modulus", _whole, lambda p, _: [(f"around {p}", Abs(p.part))]),
     (
@@ -259,6 +329,7 @@ _RULES: tuple[tuple[str, _Places, Callable[[Place, Swaps], _Changed]], ...] = (
         _all(Abs),
         lambda p, _: [(f"{n} for {p}", n) for n in (p.part.args[0], -p.part.args[0])],
     ),
+    ("limit", _ends, _other_end),
 )
 _PLAIN = 3
 """Number of rules for changes that are tried in pairs."""

@@ -12,11 +12,12 @@ from enum import StrEnum
 from typing import NamedTuple
 
 import mpmath
-from sympy import Expr, Integral, Symbol
+from sympy import Expr, Symbol
 
 from derive.check.claim import AsMeant, Basis, Claim, Paper, Verdict
 from derive.check.correction import Repair
 from derive.check.verdict import Finding
+from derive.reading.improper import typed
 from derive.sheet.notation import latex_of, text_of
 
 _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
@@ -45,19 +46,8 @@ def corrected(finding: Finding) -> str | None:
 
 
 def _text(equation: AsMeant | Repair) -> str:
-    return f"{_typed(equation.left)} {equation.relation} {_typed(equation.right)}"
-
-
-def _typed(expr: Expr) -> str:
-    """Return `expr` as a user would type it."""
-    return text_of(expr.replace(lambda node: isinstance(node, Integral), _integral))
-
-
-def _integral(over: Integral) -> Symbol:
-    told = _typed(over.function)
-    for along, *ends in over.limits:
-        told = f"integral({', '.join((told, str(along), *map(_typed, ends)))})"
-    return Symbol(told)
+    left, right = (text_of(typed(side)) for side in (equation.left, equation.right))
+    return f"{left} {equation.relation} {right}"
 
 
 def latex_of_equation(equation: AsMeant | Repair) -> str:
@@ -127,7 +117,8 @@ def _meanings(claim: Claim) -> list[str]:
     meant = claim.meant
     sides = (*meant.compared, meant.left, meant.right)
     held = set().union(*(side.free_symbols for side in sides))
-    found: dict[str, str] = {s.name: _typed(e) for s, e in meant.meaning.items() if s in held}
+    used = {s: e for s, e in meant.meaning.items() if s in held}
+    found: dict[str, str] = {s.name: text_of(typed(e)) for s, e in used.items()}
     told = list[str]()
     for name in dict.fromkeys([*found, *claim.symbols]):
         both = dict.fromkeys(filter(None, (claim.symbols.get(name), found.get(name))))

@@ -2,7 +2,21 @@
 
 from typing import Any
 
-from sympy import Expr, Function, Integral, Min, Mul, Symbol, degree, denom, oo, solve, together
+from sympy import (
+    Derivative,
+    Expr,
+    Function,
+    Integral,
+    Limit,
+    Min,
+    Mul,
+    Symbol,
+    degree,
+    denom,
+    oo,
+    solve,
+    together,
+)
 from sympy.printing.latex import LatexPrinter
 
 from derive.command.errors import BadFormula
@@ -51,6 +65,28 @@ def as_integral(node: Expr) -> Integral:
         return node
     inside, along, low, *high = node.args
     return Integral(inside, (along, low, *(high or [low])))
+
+
+def typed(expr: Any) -> Any:
+    """Write integrals, limits and derivatives as the calls that a user types."""
+    kinds = Integral, Limit, Derivative, *IMPROPER
+    return expr.replace(lambda node: isinstance(node, kinds), _call)
+
+
+def _call(node: Expr) -> Expr:
+    if isinstance(node, PrincipalValue):
+        return Function("pv")(*node.args)
+    if isinstance(node, ToInfinity):
+        return Function("integral")(*node.args, oo)
+    if isinstance(node, Limit):
+        return Function("limit")(*node.args[:3])
+    if isinstance(node, Derivative):
+        ((along, times),) = node.variable_count
+        return Function("diff")(node.expr, along, *([times] if times != 1 else []))
+    inside = node.function
+    for limits in node.limits:
+        inside = Function("integral")(inside, *limits)
+    return inside
 
 
 def proper(expr: Any) -> Any:

@@ -124,11 +124,11 @@ class Units:
         vars(self).update(vars(trial))
         return ""
 
-    def unit_of(self, symbol: Symbol) -> str:
-        """Return the unit of a symbol as text, or an empty string if it is not known."""
+    def unit_of(self, expr: Expr) -> str:
+        """Return the unit of an expression as text, or an empty string if it is not known."""
         trial = copy(self)
         try:
-            unit = trial._shown(trial._of_symbol(symbol))
+            unit = trial._shown(trial.of(expr) or NUMBER)
         except DimensionMismatch:
             return ""
         return "" if "?" in unit else unit

@@ -26,20 +26,58 @@ P = "load(a, a)"
 p_0 = "pressure(0, a, a)"
 l = "k*a"
 q = "k*p_0"
+Q = "f*(load(a, a) - load(l, l))"
+K_N = "K_N_left(a, a)"
+p_at_x = "pressure(x, a, a)"
+p_at_s = "p_0*sqrt(1 - s**2/a**2)"
+q_at_x = "f*pressure(x, a, a) - f*pressure(x, l, l)"
+phi_0 = "asin(l/a)"
+"""
+WEDGE = """
+body = "wedge"
+[variables]
+a = { unit = "m" }
+c = { unit = "m" }
+[symbols]
+P = "load(a, c)"
+M = "moment(a, c)"
+K_N = "K_N_left(a, c)"
+alpha = "tilt(a, c)"
+theta = "pi*tilt(a, c)/(2*phi)"
+"""
+FLAT = """
+body = "flat_rounded"
+[variables]
+phi_0 = { unit = "rad", low = 0.1, high = 1.4 }
+[symbols]
+a = "b/sin(phi_0)"
+P = "load(a, a)"
+K_N = "K_N_left(a, a)"
+"""
+PUNCH = """
+[variables]
+a = { unit = "m" }
+P = { unit = "N/m" }
+dQ = { unit = "N/m" }
+dsigma = { unit = "Pa" }
+k = { unit = "-", low = 0.05, high = 0.95 }
+[symbols]
+c = "k*a"
+K_T = "dQ/(pi*sqrt(2*a)) + dsigma*sqrt(2*a)/8"
+p_at_s = "P/(pi*sqrt(a**2 - s**2))"
 """
 
 
-def judged(folder: Path, printed: str, end: str = "") -> Finding:
+def judged(folder: Path, printed: str, end: str = "", head: str = HEAD) -> Finding:
     more = f'as = "{end}"' if end else ""
-    return asking.judged(folder, HEAD + asking.claim(printed, more))
+    return asking.judged(folder, head + asking.claim(printed, more))
 
 
 # ------------------------------------------------------------------ corrections
 
 
-@pytest.mark.parametrize(
-    ("printed", "right"),
-    [
+MISPRINTS = {
+    HEAD: [
         ("diff(P, a) = pi*E_star*c/(2*R)", "diff(P, a) = pi*E_star*a/(2*R)"),
         ("pressure(0, c, c) = (a/c)*p_0", "pressure(0, c, c) = c*p_0/a"),
         ("p_0 = (P*E_star/(pi*R))**2", "p_0 = sqrt(E_star*P/(pi*R))"),
@@ -63,10 +101,108 @@ def judged(folder: Path, printed: str, end: str = "") -> Finding:
             "2 + n = 2 + 2*gamma_function(n/2)/gamma_function(n/2 + 1)",
             "n + 2 = 2 + 2*gamma(n/2 + 1)/gamma(n/2)",
         ),
+        ("Q/(f*P) = 1 - l/a", "Q/(P*f) = 1 - l**2/a**2"),
+        ("Q/(f*P) = 1 - l**2/a", "Q/(P*f) = 1 - l**2/a**2"),
+        ("l/a = 1 - Q/(f*P)", "l/a = sqrt(1 - Q/(P*f))"),
+        ("l/a = sqrt(1 + Q/(f*P))", "l/a = sqrt(1 - Q/(P*f))"),
+        ("l = sqrt(1 - Q/(f*P))", "l = a*sqrt(1 - Q/(P*f))"),
+        ("Q = P*(1 - l**2/a**2)", "Q = P*f*(1 - l**2/a**2)"),
+        ("a**2 = 4*P*R/pi", "a**2 = 4*P*R/(pi*E_star)"),
+        ("a**2 = 4*P/(pi*E_star)", "a**2 = 4*P*R/(pi*E_star)"),
+        ("a = 4*P*R/(pi*E_star)", "a = 2*sqrt(P*R/(pi*E_star))"),
+        ("p_0 = sqrt(P*E_star/pi)", "p_0 = sqrt(E_star*P/(pi*R))"),
+        ("p_0 = sqrt(P/(pi*R))", "p_0 = sqrt(E_star*P/(pi*R))"),
+        ("p_0 = 2*P/pi", "p_0 = 2*P/(pi*a)"),
+        ("diff(P, a) = pi*E_star/(2*R)", "diff(P, a) = pi*E_star*a/(2*R)"),
+        ("l = sqrt(a**2 - 4*Q*R/(pi*f))", "l = sqrt(a**2 - 4*Q*R/(pi*E_star*f))"),
+        ("l = sqrt(a**2 - 4*Q/(pi*f*E_star))", "l = sqrt(a**2 - 4*Q*R/(pi*E_star*f))"),
+        ("p_at_x = p_0*sqrt(1 - x/a)", "p_at_x = p_0*sqrt(1 - x**2/a**2)"),
+        ("p_at_x = p_0*sqrt(a**2 - x**2)", "p_at_x = p_0*sqrt(a**2 - x**2)/a"),
+        (
+            "q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - sqrt(1 - x**2/l**2))",
+            "q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - l*sqrt(1 - x**2/l**2)/a)",
+        ),
+        (
+            "q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - a/l*sqrt(1 - x**2/l**2))",
+            "q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - l*sqrt(1 - x**2/l**2)/a)",
+        ),
+        ("Q/(f*P) = cos(phi_0)", "Q/(P*f) = cos(phi_0)**2"),
+        ("Q/(f*P) = sin(phi_0)**2", "Q/(P*f) = cos(phi_0)**2"),
+        ("l/sqrt(a**2 - l**2) = 1/tan(phi_0)", "l/sqrt(a**2 - l**2) = tan(phi_0)"),
+        ("K_N = p_0*sqrt(2*a)", "K_N = p_0*sqrt(2/a)"),
+        ("P = 2*integral(p_at_s, s, 0, l)", "P = 2*integral(p_at_s, s, 0, a)"),
+        ("P = 2*integral(p_at_s, s, -a, a)", "P = integral(p_at_s, s, -a, a)"),
     ],
+    WEDGE: [
+        ("tan(theta) = 2*sqrt(a*c)/(a - c)", "cot(theta) = 2*sqrt(a*c)/(a - c)"),
+        ("cos(theta) = (a - c)/(a + c)", "sin(theta) = (a - c)/(a + c)"),
+        ("cos(theta) = sqrt(a*c)/(a + c)", "cos(theta) = 2*sqrt(a*c)/(a + c)"),
+        ("sin(pi*alpha/phi) = (a - c)/(a + c)", "sin(pi*alpha/(2*phi)) = (a - c)/(a + c)"),
+        ("alpha = 2*phi/pi*acos((a - c)/(a + c))", "alpha = 2*phi*asin((a - c)/(a + c))/pi"),
+        ("c/a = tan(theta/2)**2", "c/a = cot(theta/2 + pi/4)**2"),
+        ("P = phi*sqrt(a*c)", "P = E_star*phi*sqrt(a*c)"),
+        ("P = E_star*phi*a*c", "P = E_star*phi*sqrt(a*c)"),
+        ("M = P*(a + c)/4", "M = P*(a - c)/4"),
+        ("K_N = 2*E_star*phi/pi*sqrt(c/(a + c))", "K_N = 2*E_star*phi*sqrt(c/(a*(a + c)))/pi"),
+        (
+            "K_N = 2*E_star*phi/pi*sqrt(a/(c*(a + c)))",
+            "K_N = 2*E_star*phi*sqrt(c/(a*(a + c)))/pi",
+        ),
+    ],
+    FLAT: [
+        (
+            "2*P*R/(b**2*E_star) = (pi - 2*phi_0)/(2*sin(phi_0)**2) - tan(phi_0)",
+            "2*P*R/(E_star*b**2) = (pi - 2*phi_0)/(2*sin(phi_0)**2) - 1/tan(phi_0)",
+        ),
+        (
+            "2*P*R/(b**2*E_star) = (pi - 2*phi_0)/(2*sin(phi_0)) - 1/tan(phi_0)",
+            "2*P*R/(E_star*b**2) = (-phi_0 + pi/2)/sin(phi_0)**2 - 1/tan(phi_0)",
+        ),
+        (
+            "2*P*R/(b**2*E_star) = (pi - phi_0)/(2*sin(phi_0)**2) - 1/tan(phi_0)",
+            "2*P*R/(E_star*b**2) = (pi - 2*phi_0)/(2*sin(phi_0)**2) - 1/tan(phi_0)",
+        ),
+        (
+            "2*P*R/E_star = a*acos(b/a) - b*sqrt(a**2 - b**2)",
+            "2*P*R/E_star = a**2*acos(b/a) - b*sqrt(a**2 - b**2)",
+        ),
+        (
+            "2*P*R/E_star = a**2*asin(b/a) - b*sqrt(a**2 - b**2)",
+            "2*P*R/E_star = a**2*acos(b/a) - b*sqrt(a**2 - b**2)",
+        ),
+        (
+            "K_N = E_star*sqrt(2*a)/(pi*R)*phi_0",
+            "K_N = E_star*sqrt(2*a)*(-phi_0 + pi/2)/(pi*R)",
+        ),
+    ],
+    PUNCH: [
+        (
+            "K_T = dQ/(pi*sqrt(2*a)) + sqrt(2*a)/8",
+            "K_T = dQ*sqrt(2/a)/(2*pi) + dsigma*sqrt(2*a)/8",
+        ),
+        (
+            "K_T = dQ/(pi*sqrt(2*a)) - dsigma*sqrt(2*a)/8",
+            "K_T = dQ*sqrt(2/a)/(2*pi) + dsigma*sqrt(2*a)/8",
+        ),
+        (
+            "integral(p_at_s, s, 0, c) = P/pi*asin(c)",
+            "integral(p_at_s, s, 0, c) = P*asin(c/a)/pi",
+        ),
+        (
+            "integral(p_at_s, s, 0, a) = P/pi*acos(c/a)",
+            "integral(p_at_s, s, c, a) = P*acos(c/a)/pi",
+        ),
+    ],
+}
+"""The right equation for each misprint, by the head of the file."""
+
+
+@pytest.mark.parametrize(
+    ("head", "printed", "right"),
+    [(head, *each) for head, rows in MISPRINTS.items() for each in rows],
 )
-def test_a_misprint_is_corrected(tmp_path: Path, printed: str, right: str) -> None:
-    finding = judged(tmp_path, printed)
+def test_a_misprint_is_corrected(tmp_path: Path, head: str, printed: str, right: str) -> None:
+    finding = judged(tmp_path, printed, head=head)
     assert finding.verdict == Verdict.FAILS
     assert corrected(finding) == right
 
@@ -86,6 +222,28 @@ def test_no_correction_is_found(tmp_path: Path, printed: str) -> None:
     finding = judged(tmp_path, printed)
     assert (finding.verdict, finding.repair) == (Verdict.FAILS, None)
     assert finding.tried
+
+
+@pytest.mark.parametrize(
+    ("printed", "end", "order", "right"),
+    [
+        # l/a = sqrt(1 - w) = 1 - w/2 + O(w**2), where w is Q/(f P)
+        ("1 - l/a ~ Q/(f*P)", "k -> 1", "", "1 - l/a ~ Q/(2*P*f)"),
+        ("l/a = 1 - Q/(f*P)", "k -> 1", "2", "l/a = 1 - Q/(2*P*f)"),
+        ("p_at_x = p_0*(1 - x**2/a**2)", "x -> 0", "4", "p_at_x = p_0*(1 - x**2/(2*a**2))"),
+        # a term that does not matter may be anything; (a - l)/a is about Q/(2 f P)
+        ("a - l ~ Q/(f*P) + l", "k -> 1", "", None),
+        ("sin(t) = t - t**2/2", "t -> 0", "3", None),
+        ("cos(t) = 1 - t + t**3", "t -> 0", "2", None),
+    ],
+)
+def test_a_correction_near_a_limit_stands_out(
+    tmp_path: Path, printed: str, end: str, order: str, right: str | None
+) -> None:
+    more = f'as = "{end}"\n' + (f"order = {order}" if order else "")
+    finding = asking.judged(tmp_path, HEAD + asking.claim(printed, more))
+    assert finding.verdict == Verdict.FAILS
+    assert corrected(finding) == right
 
 
 # ------------------------------------------------------------------ what is said besides
