@@ -26,12 +26,14 @@ def test_the_formulas_listed_are_those_of_the_sheet() -> None:
 
 
 def test_the_file_shown_is_read(tmp_path: Path) -> None:
-    shown = re.search(r"```toml\n(.*?)```", CLAIMS, re.S)
-    assert shown is not None
+    answers, shown, *_ = re.findall(r"```toml\n(.*?)```", CLAIMS, re.S)
     path = tmp_path / "note.toml"
-    path.write_text(shown.group(1))
+    path.write_text(shown)
     (claim,) = read_claims(path).claims
     assert claim.entry.expected is Verdict.HOLDS
+    path.write_text(f"{answers}[[claims]]\nlabel = 'flat'\nprinted = 'P = load(b, b)'\n")
+    (claim,) = read_claims(path).claims
+    assert not claim.unchecked
 
 
 @pytest.mark.parametrize("verdict", list(Verdict))

@@ -17,9 +17,9 @@
     verdict        claim                     Finding: verdict, evidence, corrected equation
     report         findings                  evidence, errata and remarks in words; JSON
     documents      findings                  Markdown, LaTeX and HTML, by templates
-    proposals      name of a symbol          a usual formula, meaning and unit, as a proposal
+    meanings       four answers of a user    the standard meanings of a paper's letters
     draft          LaTeX file                a claims file for the user to complete
-    accept         claims file               the same file with the readings that a user accepted
+    accept         claims file               the same file with what a user accepted
     schema         tables of a claims file   typed records, or an error with its place
     mistakes       errors in a claims file   one error that reports all; the reason for one claim
     declarations   the file's own tables     body, ranges, units and spellings for all claims

@@ -1,7 +1,7 @@
-"""Write the readings that a user accepts into the claims file: either all of them or none.
+"""Write what a user accepts into the claims file: either all of it or nothing.
 
-In:   the path of a claims file, and the accepted readings.
-Out:  the file with these readings, or an error and the file as it was.
+In:   the path of a claims file, the accepted readings, and the symbols with accepted proposals.
+Out:  the file with these entries, or an error and the file as it was.
 """
 
 import tomllib
@@ -18,7 +18,7 @@ from derive.check.userfile import source
 from derive.command import files
 from derive.command.errors import BadClaimsFile
 
-_REMEDY = "add the lines `understood = ...` by hand"
+_REMEDY = "add the lines `understood = ...` and `is = ...` by hand"
 _refused = partial(
     files.refused_as, partial(BadClaimsFile, remedy=_REMEDY), what="the file cannot be written"
 )
@@ -30,8 +30,8 @@ def demand_writable(path: Path) -> None:
         files.demand_writable(path.resolve())
 
 
-def accept(path: Path, readings: Sequence[Reading]) -> None:
-    """Write the accepted readings of claims into their file.
+def accept(path: Path, readings: Sequence[Reading], symbols: Sequence[str] = ()) -> None:
+    """Write the accepted readings of claims, and the accepted proposals for symbols, into the file.
 
     Raises BadClaimsFile and leaves the file unchanged if the new file would differ from the old
     one by more than these entries.
@@ -42,9 +42,12 @@ def accept(path: Path, readings: Sequence[Reading]) -> None:
     for reading in readings:
         for claims in (data["claims"], document["claims"]):
             _accept(claims[reading.number - 1], reading.understood)
+    for name in symbols:
+        for known in (data["symbols"], document["symbols"]):
+            known[name]["is"] = known[name].pop("proposal")
     new = tomlkit.dumps(document)
     if not is_kept or tomllib.loads(new) != data:
-        why = "the layout of this file does not allow the readings to be inserted automatically"
+        why = "the layout of this file does not allow the accepted entries to be inserted"
         raise BadClaimsFile(str(path), why, _REMEDY)
     with _refused(path):
         target = path.resolve()

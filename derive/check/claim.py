@@ -184,10 +184,12 @@ class Claim:
         return self.entry.consequence.split("; ") if self.entry.consequence else []
 
     def is_called(self, given: str) -> bool:
-        """Whether a user may mean this claim: by its label, its name or its equation number."""
-        number = self.entry.equation
+        """Whether a user may mean this claim: by its label, name, place or equation number."""
+        number, place = self.entry.equation, self.entry.place
         numbers = (number, f"eq. {number}") if number else ()
-        return given in (self.entry.label, self.name, *numbers)
+        places = {place, *place.split(", ")} - {""}
+        named = (self.entry.label, self.name, *numbers, *places)
+        return given in named or not {f"eq. {given}", f"eq. ({given})"}.isdisjoint(places)
 
 
 @dataclass(frozen=True)

@@ -319,6 +319,9 @@ class _Equation:
             remedy = "use `symbols` or `ranges` for a value, or write <, <=, > or >="
             self.place.demand(not re.search("(?<![<>=!])=(?!=)", text), why, remedy)
             found.add(condition(text, names).xreplace(meant.in_variables))
+        for text in self.declared.paper.conditions:
+            inside = condition(text, names).xreplace(meant.in_variables)
+            found |= {inside} if inside.free_symbols <= held else set()
         remedy = "correct `require`, or the arguments of the formulas that are called"
         self.place.demand(false not in found, "its conditions are never satisfied", remedy)
         inside = bound - held
@@ -379,10 +382,10 @@ class _Equation:
     @property
     def _own_parameters(self) -> dict[str, Expr]:
         """Parameters of the body that the equation uses with a meaning of its own."""
-        meant, body = self.context.meant, self.context.body
+        meant = self.context.meant
         used = {symbol.name for symbol in free(self.left, self.right)}
         used = used.union(*(meant.uses.get(name, ()) for name in used))
-        known = used & {*(body.parameters if body else ()), "E_star", "f"}
+        known = used & {each.name for each in self.context.own.values()}
         table = {name: meant.in_variables.get(Symbol(name)) for name in sorted(known)}
         return {name: given for name, given in table.items() if given is not None}
 

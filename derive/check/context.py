@@ -70,6 +70,7 @@ class Context:
     units      the units of variables and symbols, as far as they are declared
     symbols    the formula of each symbol of the source as text; empty if it has none
     place      the file
+    own        the symbols of the body's formulas, each with the paper's symbol for it
     """
 
     body: ProvenBody | None
@@ -78,6 +79,7 @@ class Context:
     symbols: Mapping[str, str]
     place: Place
     limit: TimeLimit
+    own: Mapping[Symbol, Symbol] = field(default_factory=dict)
     meant: Meant = field(default_factory=Meant)
 
     @property
@@ -93,6 +95,11 @@ class Context:
         return Names(
             str(place), {**self.variables, **{n: Symbol(n) for n in chosen}}, arities, meant
         )
+
+    @cached_property
+    def _renamed(self) -> dict[Symbol, Symbol]:
+        """The symbols of the body's formulas for which the paper has another letter."""
+        return {ours: theirs for ours, theirs in self.own.items() if ours != theirs}
 
     # -------------------------------------------------------------- meanings
 
@@ -157,7 +164,7 @@ class Context:
             assert self.body is not None
             known = self.body.sheet[call.func.__name__]
             formula = self.body.formula(known.name).xreplace({e: M / P})
-            table = dict(zip(known.arguments, call.args, strict=True))
+            table = {**self._renamed, **dict(zip(known.arguments, call.args, strict=True))}
             expr = expr.xreplace({call: placed(formula, table)})
         expr = proper(expr)
         if any(each.has(Piecewise) for each in expr.atoms(Limit)):  # SymPy takes either branch
@@ -180,7 +187,7 @@ class Context:
         """Yield the conditions under which the formulas called in an expression are defined."""
         for call in sorted(expr.atoms(AppliedUndef), key=str):
             known = self.sheet[call.func.__name__]  # type: ignore[index]
-            table = dict(zip(known.arguments, call.args, strict=True))
+            table = {**self._renamed, **dict(zip(known.arguments, call.args, strict=True))}
             for condition in known.conditions:
                 yield self.substitute(condition.subs(table, simultaneous=True))
         for value in sorted(expr.atoms(PrincipalValue), key=str):

@@ -6,6 +6,7 @@ No claim in the draft is judged before a user has accepted its reading and defin
 import os
 import re
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -14,7 +15,7 @@ from typing import Any
 import tomlkit
 from sympy import Expr, Integral, Mul, Symbol, degree, denom, solve, together
 
-from derive.check.proposals import proposal
+from derive.check.meanings import NONE, Standard
 from derive.command.errors import BadClaimsFile, BadFormula
 from derive.command.files import demand_writable, refused_as, write_new
 from derive.command.limit import LimitReached, within
@@ -27,9 +28,10 @@ from derive.reading.formula import (
     equation,
     may_be_rounded,
     unknown,
+    usable,
 )
 from derive.reading.latex import Latex
-from derive.reading.lexer import plain
+from derive.reading.lexer import Token, plain
 from derive.reading.spellings import functions_in, spellings, unclear_call
 from derive.reading.statements import Statement, remarks, statements
 from derive.reading.substitution import substitution
@@ -39,24 +41,30 @@ _SECONDS = 10.0
 _SHOWN = 4
 _LONGEST = 80
 """The largest number of words and characters of LaTeX that show where an error occurred."""
-_KNOWN = frozenset({"E_star", "f", "x", "s", "xi"})
-"""Names that every claims file knows without a declaration."""
 _unwritable = partial(BadClaimsFile, remedy="give the name of a new file with --draft")
 
 _HEAD = """title = ""
 
-# Define each symbol by a formula, such as P = { is = 'load(a, c)' }, or move it to [variables] if
-# it is an independent variable.  Rename `proposal` to `is` if it is right.  Units are checked, so
-# correct or delete those that are wrong.  Then run `derive check FILE --accept`, and finally
-# `derive check FILE`, with this file.
-# body = 'hertz'           # the body whose formulas may be called
+# Four answers give the paper's letters their standard meanings: the body (`derive list`), whether
+# the contact is symmetric, the elastic constants, and the letters that differ from ours.  A line
+# of yours in [symbols] or [variables] beats a standard meaning.  Write a formula for each "" in
+# [symbols], such as h = '(a + c)/2', or move the symbol to [variables].
+{answers}
 
-[variables]                # drawn at random, such as R = 'radius'
+[variables]                # positive, unless they have a range, such as t = {{ low = 0, high = 1 }}
 
 [symbols]
 
 [latex]
 """
+_EXAMPLE: dict[str, Any] = {
+    "symmetric": True,
+    "modulus": "E_star",
+    "letters": {"m": "b", "f": r"\mu"},
+}
+"""The table [paper] that stands in the draft as a comment until the user answers."""
+_FUNCTION = re.compile(r"(a?)(sin|cos|tan|sinh|cosh|tanh)\((\w+)\)")
+_DEFINES = (":=", r"\equiv", r"\coloneqq", r"\triangleq")
 
 
 @dataclass
@@ -64,16 +72,22 @@ class Draft:
     """The content of a paper that was read.
 
     environments  the number of displays in the file
-    source        the text of the paper
+    answers       the body and the table [paper]; empty if the user has not answered
+    standard      the standard meanings that follow from the answers
     spelled       the LaTeX of each symbol -> its name
+    defined       the definitions in the paper that may be meanings, each with its place
     claims        the entries of each claim in the file; a `note` becomes a comment
+    seen          the names that have occurred so far
     """
 
     name: str
     environments: int
-    source: str
+    answers: tuple[str, dict[str, Any]] | tuple[()] = ()
+    standard: Standard = NONE
     spelled: dict[str, str] = field(default_factory=dict)
+    defined: dict[str, dict[str, str]] = field(default_factory=dict)
     claims: list[dict[str, Any]] = field(default_factory=list)
+    seen: set[str] = field(default_factory=set)
 
     def told(self, key: str) -> list[str]:
         """All entries `unchecked` or `note` of claims, each with its place in the paper."""
@@ -84,11 +98,34 @@ class Draft:
         """The number of statements that were read."""
         return sum("understood" in each for each in self.claims)
 
-    def names(self) -> dict[str, dict[str, str]]:
-        """The symbols to be defined, with what is proposed for each."""
-        keys, names = ("proposal", "meaning", "unit"), dict.fromkeys(self.spelled.values())
-        found = {n: zip(keys, proposal(n, self.source), strict=True) for n in names}
-        return {n: {k: t for k, t in each if t} for n, each in found.items() if n not in _KNOWN}
+    @property
+    def known(self) -> frozenset[str]:
+        """The names that every claims file with these answers knows."""
+        return frozenset({"x", "s", "xi", *self.standard.letters.values()})
+
+    def meant(self) -> dict[str, str]:
+        """The standard formulas of the paper's symbols."""
+        return {n: entry["is"] for n, entry in self.standard.of({*self.spelled.values()}).items()}
+
+    def open(self) -> dict[str, dict[str, str]]:
+        """The symbols without a meaning, with what the paper says of each."""
+        known = self.known | self.meant().keys()
+        return {n: self.defined.get(n, {}) for n in self.spelled.values() if n not in known}
+
+    def note_definition(self, entries: dict[str, Any], is_stated: bool) -> None:
+        """Propose an equation as a meaning if it defines a letter that stands alone on the left.
+
+        It does so if the letter has not occurred before, or if the paper states it.
+        """
+        left, _, right = entries.get("understood", "").partition(" = ")
+        names = set(re.findall(r"[A-Za-z]\w*", f"{left} {right}"))
+        if found := _FUNCTION.fullmatch(left):
+            left, right = found[3], f"{'' if found[1] else 'a'}{found[2]}({right})"
+        is_whole = right and not entries.keys() & {"require", "as", "unchecked"}
+        is_new = usable(left) and left not in {*re.findall(r"\w+", right), *self.defined}
+        if is_whole and is_new and (is_stated or left not in self.seen):
+            self.defined[left] = {"proposal": right, "meaning": entries["place"]}
+        self.seen |= names
 
     def drop_bound(self) -> None:
         """Drop the symbols that are bound by an integral, sum or limit."""
@@ -97,14 +134,35 @@ class Draft:
         held = {name for text in entries for name in re.findall(r"\w+", text)}
         free = {name for text in entries for name in unknown(text, Names("", {}, {}))}
         free |= {a for name in self.spelled.values() for a in name.partition("_at_")[2].split("_")}
-        kept = free | _KNOWN | (set(self.spelled.values()) - held)
+        kept = free | self.known | (set(self.spelled.values()) - held)
         self.spelled = {spelled: n for spelled, n in self.spelled.items() if n in kept}
+
+    def add_defined(self, spelled: Mapping[str, str]) -> None:
+        """Add the symbols of the text that the definitions of other symbols need."""
+        names = [*self.spelled.values()]
+        for name in names:
+            used = re.findall(r"\w+", self.defined.get(name, {}).get("proposal", ""))
+            names += [each for each in used if each in spelled.values() and each not in names]
+        self.spelled = {latex: n for latex, n in spelled.items() if n in names} | self.spelled
+
+    def _answered(self) -> str:
+        """The answers of the user as lines of the file, or an example as a comment."""
+        body, paper = self.answers or ("hertz", _EXAMPLE)
+        letters = (f"{n} = {_toml(each).as_string()}" for n, each in paper["letters"].items())
+        lines = [
+            f"body = '{body}'",
+            "[paper]",
+            f"symmetric = {str(paper['symmetric']).lower()}",
+            f"modulus = '{paper['modulus']}'",
+            f"letters = {{ {', '.join(letters)} }}",
+        ]
+        return "\n".join(lines if self.answers else (f"# {line}" for line in lines))
 
     def text(self) -> str:
         """The text of the claims file."""
-        made = tomlkit.parse(_HEAD)
+        made = tomlkit.parse(_HEAD.format(answers=self._answered()))
         made["title"], symbols, latex = _toml(self.name), made["symbols"], made["latex"]
-        for name, given in self.names().items():
+        for name, given in self.open().items():
             symbols[name] = tomlkit.inline_table() if given else ""
             for key, entry in given.items():
                 symbols[name][key] = entry
@@ -125,25 +183,37 @@ class Draft:
         return tomlkit.dumps(made)
 
 
-def draft_claims(path: Path, inline: bool = False) -> Draft:
+def draft_claims(
+    path: Path,
+    inline: bool = False,
+    answers: tuple[str, dict[str, Any]] | tuple[()] = (),
+    standard: Standard = NONE,
+) -> Draft:
     """Read a LaTeX file; raise BadClaimsFile if its displays cannot be found.
 
-    inline: whether the relations in the text are read as well.
+    inline: whether the relations in the text are read as well
+    answers, standard: the user's answers, and the meanings that follow from them
     """
     source = displays(path, inline)
     if not source.found:
         why = "the file has no displayed equations"
         raise BadClaimsFile(str(path), why, "give a paper in LaTeX")
-    made = Draft(path.name, source.environments, source.text)
-    known = [(each, _statements(path.name, each)) for each in source.found]
-    readable = [each for _, found in known for each in found if not each.why]
-    formulas = [tokens for each in readable for tokens in (each.tokens, *each.conditions)]
-    functions = functions_in(formulas)
-    for tokens in formulas:
-        made.spelled |= spellings(tokens, functions)
+    made = Draft(path.name, source.environments, answers, standard)
+    ordered = sorted([*source.found, *source.definitions], key=lambda each: each.line)
+    known = [(each, _statements(path.name, each)) for each in ordered]
+    printed, asides = list[list[Token]](), list[list[Token]]()
+    for display, statement in ((d, each) for d, found in known for each in found if not each.why):
+        formulas = asides if display in source.definitions else printed
+        formulas += [statement.tokens, *statement.conditions]
+    functions, in_text = functions_in(printed), dict[str, str]()
+    for formulas, spelled in ((printed, made.spelled), (asides, in_text)):
+        for tokens in formulas:
+            spelled.update(spellings(tokens, functions))
     used = Counter[str]()
     for display, found in known:
-        reader = Latex("the draft", display.latex, made.spelled)
+        is_aside = display in source.definitions
+        spelled = {**in_text, **made.spelled} if is_aside else made.spelled
+        reader = Latex("the draft", display.latex, spelled)
         labels = [_label(display, each) for each in found]
         for part, (label, statement) in enumerate(zip(labels, found, strict=True), 1):
             label += f"/{labels[:part].count(label)}" if labels.count(label) > 1 else ""
@@ -151,8 +221,12 @@ def draft_claims(path: Path, inline: bool = False) -> Draft:
             label += f" [{used[label]}]" if used[label] > 1 else ""
             place = f"statement {part}, {path.name}" if len(found) > 1 else path.name
             entries = _printed(display, label, place, part if statement.tokens else 0)
-            made.claims.append(entries | _entries(reader, statement, functions))
+            entries |= _entries(reader, statement, functions)
+            made.note_definition(entries, is_aside or _is_stated(display.latex, statement))
+            if not is_aside:
+                made.claims.append(entries)
     made.drop_bound()
+    made.add_defined(in_text)
     return made
 
 
@@ -162,6 +236,13 @@ def _statements(name: str, display: Display) -> list[Statement]:
         return statements(name, display.latex) or [Statement([], why="it has no relation")]
     except BadFormula as error:
         return [Statement([], why=_told(error))]
+
+
+def _is_stated(latex: str, statement: Statement) -> bool:
+    r"""Whether a statement is printed with := or \equiv, or after the word where."""
+    start = statement.tokens[0].at if statement.tokens else 0
+    is_sign = any(latex.startswith(_DEFINES, t.at) for t in statement.tokens if not t.depth)
+    return is_sign or re.search(r"\bwhere\b[^=]*$", latex[:start]) is not None
 
 
 def _label(display: Display, statement: Statement) -> str:

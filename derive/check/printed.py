@@ -41,6 +41,13 @@ class Reading:
         return f'understood = "{self.understood}"' if self.entry.accepted else "accepted = true"
 
     @property
+    def shown(self) -> dict[str, str]:
+        """What the user sees before accepting it."""
+        told = {"LaTeX": self.entry.latex.strip(), "understood": self.understood}
+        told |= {"in the file": self.accepted, **self.entry.beside, "unchecked": self.why}
+        return {key: text for key, text in told.items() if text}
+
+    @property
     def remedy(self) -> str:
         """What the file says of the reading, and what the user can do."""
         said = f"accepts {self.accepted}" if self.accepted else "does not accept it"

@@ -175,6 +175,24 @@ class Variable(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             raise ValueError(f"{why}: write {{ low = 0.1, high = 0.9 }}, or only its meaning")
 
 
+MODULI = ("E_star", "E and nu", "E and nu, rigid", "mu and kappa", "mu and kappa, rigid")
+"""The elastic constants in which a paper may be written; "rigid" if one body is rigid."""
+
+
+class Answers(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """The table [paper]: what the letters of a paper mean; its letters by ours."""
+
+    symmetric: bool
+    letters: dict[str, Text] = {}
+    modulus: str = "E_star"
+
+    def __post_init__(self) -> None:
+        """Refuse an unknown modulus."""
+        if self.modulus not in MODULI:
+            known = ", ".join(map(repr, MODULI))
+            raise ValueError(f"modulus = {self.modulus!r} is not known: write one of {known}")
+
+
 class OwnBody(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A body that the file defines itself."""
 
@@ -257,6 +275,7 @@ class ClaimsFile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     title: str = ""
     seconds: Seconds = 30
     body: Any = None
+    paper: dict[str, Any] | None = None
     variables: dict[str, Any] = {}
     symbols: dict[str, Any] = {}
     latex: dict[str, Any] = {}

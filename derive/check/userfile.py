@@ -17,7 +17,6 @@ from derive.check.claim import Claim, Paper
 from derive.check.claim_table import ClaimReader
 from derive.check.declarations import Declarations
 from derive.check.mistakes import Collected
-from derive.check.printed import Reading
 from derive.check.schema import ClaimsFile, Labelled, Place, decoded, lines_in
 from derive.command.errors import BadClaimsFile
 from derive.command.files import Unreadable, bytes_of
@@ -57,8 +56,8 @@ def built_in() -> Paper:
     return read_claims(BUILT_IN)
 
 
-def open_readings(path: Path) -> list[Reading]:
-    """Return the readings that are not accepted yet, and the claims in LaTeX that cannot be read.
+def reader_of(path: Path) -> ClaimReader:
+    """Return what a file declares, and the readings that are not accepted yet.
 
     Raises the errors of `read_claims`.
     """
@@ -82,7 +81,7 @@ def source(path: Path) -> tuple[str, dict[str, Any]]:
     raise BadClaimsFile(str(path), why, remedy)
 
 
-def _read(path: Path) -> tuple[Paper, list[Reading]]:
+def _read(path: Path) -> tuple[Paper, ClaimReader]:
     """Read one file; errors in its structure are collected and reported together."""
     text, data = source(path)
     errors, place = Collected(), Place(str(path), lines_in(text))
@@ -99,7 +98,7 @@ def _read(path: Path) -> tuple[Paper, list[Reading]]:
         errors.errors += reader.mistakes
     errors.demand_none()
     signs = {name: tuple(labels) for name, labels in file.signs.items()}
-    return Paper(file.title or str(path), claims, signs), reader.readings
+    return Paper(file.title or str(path), claims, signs), reader
 
 
 def _claims(

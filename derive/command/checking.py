@@ -1,16 +1,24 @@
 """What `derive check` does before it judges claims: drafts, readings, and the choice of claims."""
 
+import re
+from collections.abc import Mapping
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 import click
 
+from derive.body.library import library, load_geometry
 from derive.check.accept import accept, demand_writable
 from derive.check.claim import Paper
 from derive.check.draft import demand_new, draft_claims, write
-from derive.check.userfile import built_in, open_readings, read_claims
-from derive.command.terminal import path_of, status
+from derive.check.meanings import NONE, Standard, standard
+from derive.check.schema import MODULI, Answers, Place, decoded
+from derive.check.userfile import built_in, read_claims, reader_of
+from derive.command.errors import UserError
+from derive.command.options import parse_name_values
+from derive.command.terminal import command, folded, path_of, status, typed
 
 _ALIKE = 8
 """Number of names that a message about an unknown claim shows."""
@@ -21,52 +29,125 @@ def write_draft(file: Path | None, new: Path, inline: bool) -> None:
     if file is None:
         raise click.UsageError("--draft reads a paper: give FILE, in LaTeX")
     demand_new(new)
+    answers, meanings = _answers()
     with status("reading the displayed equations"):
-        made = draft_claims(file, inline)
+        made = draft_claims(file, inline, answers, meanings)
     write(made, new)
-    symbols = made.names().values()
-    named = sum(map(bool, symbols))
     click.echo(f"{made.environments} displayed equations with {len(made.claims)} statements")
     click.echo(f"Wrote {path_of(new.absolute())}: {made.understood} statements read")
-    click.echo(f"{len(symbols)} symbols, {named} with a proposed meaning")
+    meant, left = made.meant(), made.open()
+    for name, formula in meant.items():
+        click.echo(f"meaning: {name} = {formula}")
+    proposed = sum(map(bool, left.values()))
+    click.echo(f"{len(meant)} symbols with a standard meaning, {len(left)} without")
+    if proposed:
+        click.echo(f"{proposed} of them with a definition in the paper, to be accepted by you")
+    if not answers:
+        click.echo(f"Next, answer the four questions at the top of {path_of(new.absolute())}")
+    elif left:
+        click.echo(f"Next, give meanings in [symbols] or [variables] to {', '.join(left)}")
     for line in made.told("unchecked"):
         click.echo(f"not read: {line}")
     for line in made.told("note"):
         click.echo(f"note: {line}")
 
 
+def _answers() -> tuple[tuple[str, dict[str, Any]] | tuple[()], Standard]:
+    """Ask what the paper's letters mean; no answers if the user does not say."""
+
+    def meanings(letters: str) -> Standard:
+        try:
+            given = re.split(r",(?=\s*\w+\s*=)", letters) if letters.strip() else []
+            paper["letters"] = parse_name_values("letters", given)
+            here = Place("[paper]")
+            return standard(decoded(Answers, paper, here), load_geometry(body), here)
+        except UserError as error:
+            raise click.BadParameter(str(error)) from error
+
+    try:
+        click.echo("Four answers fill in the standard meanings of the paper's letters.")
+        bodies, constants = click.Choice(["none", *library()]), click.Choice(MODULI)
+        body = click.prompt("1. Body, or none to fill in the file by hand", "none", type=bodies)
+        if body == "none":
+            return (), NONE
+        paper: dict[str, Any] = {"symmetric": click.confirm("2. Symmetric contact?", None)}
+        paper["modulus"] = click.prompt("3. Elastic constants", "E_star", type=constants)
+        ours = meanings("")
+        entries = {**ours.variables, **ours.symbols}.items()
+        told = "; ".join(f"{letter}, {entry['meaning']}" for letter, entry in entries)
+        click.echo(folded(f"Our letters: {told}"))
+        asked = r"4. Letters of the paper that differ, such as m = b, f = \mu"
+        chosen = click.prompt(asked, "", show_default=False, value_proc=meanings)
+    except click.Abort:
+        return (), NONE
+    return (body, paper), chosen
+
+
 def accept_readings(file: Path | None, label: str | None) -> None:
-    """Show each reading that is not yet accepted, then write those that the user accepts."""
+    """Show what is not yet accepted, then write what the user accepts.
+
+    The end of the input is the end of the questions; what was accepted before is written.
+    """
     if file is None or label is not None:
         raise click.UsageError("--accept needs a claims file, without --explain: give FILE alone")
     demand_writable(file)
-    found = open_readings(file)
-    readings = [reading for reading in found if reading.understood]
-    accepted = []
-    for number, reading in enumerate(readings, 1):
-        click.echo(f"\n{number} of {len(readings)}: {reading.entry.label}")
-        click.echo(f"  LaTeX       {reading.entry.latex.strip()}")
-        click.echo(f"  understood  {reading.understood}")
-        if reading.accepted:
-            click.echo(f"  in the file {reading.accepted}")
-        for key, entry in reading.entry.beside.items():
-            click.echo(f"  {key:<11} {entry}")
-        if reading.why:
-            click.echo(f"  unchecked   {reading.why}")
-        answer = click.prompt("Is this what is printed? (y, n, q)", default="n").strip().lower()
-        if answer == "q":
-            break
-        if answer == "y":
-            accepted.append(reading)
-        elif answer != "n":
-            click.echo(f"  not accepted, because {answer!r} is not y")
-    if accepted:
-        accept(file, accepted)
-    left = len(readings) - len(accepted)
-    click.echo(f"{len(accepted)} accepted, {left} left")
-    for reading in found:
+    reader = reader_of(file)
+    for name, entry in reader.declared.variables.items():
+        click.echo(f"variable: {name}, {entry['meaning']}")
+    for name, entry in reader.declared.standard.items():
+        click.echo(f"standard meaning: {name} = {entry['is']}, {entry['meaning']}")
+    readings = {r.entry.label: r for r in reader.readings if r.understood}
+    proposals = {
+        name: {"defined at": entry.get("meaning", ""), "means": entry["proposal"]}
+        for name, entry in reader.declared.proposals.items()
+    }
+    meanings, printed, left = list[str](), list[str](), len(readings) + len(proposals)
+    try:
+        _ask("Is this its meaning?", proposals, meanings)
+        _ask("Is this what is printed?", {n: r.shown for n, r in readings.items()}, printed)
+    except click.Abort:  # the end of the input
+        click.echo()
+    finally:
+        if meanings or printed:
+            accept(file, [readings[label] for label in printed], meanings)
+    accepted = len(meanings) + len(printed)
+    click.echo(f"{accepted} accepted, {left - accepted} left")
+    for reading in reader.readings:
         if not reading.understood:
             click.echo(f"unchecked: {reading.entry.label}: {reading.why}")
+
+
+def _ask(question: str, shown: Mapping[str, Mapping[str, str]], accepted: list[str]) -> None:
+    """Show each entry and add the name of those that the user accepts; raises Abort at the end."""
+    answer = ""
+    for number, (name, texts) in enumerate(shown.items(), 1):
+        click.echo(f"\n{number} of {len(shown)}: {name}")
+        for key, text in texts.items():
+            click.echo(f"  {key:<11} {text}")
+        if answer != "all":
+            answer = str(click.prompt(f"{question} (y, n, all, q)", default="n")).strip().lower()
+        if answer == "q":
+            raise click.Abort
+        if answer in ("y", "all"):
+            accepted.append(name)
+        elif answer != "n":
+            click.echo(f"  not accepted, because {answer!r} is not y")
+
+
+def next_steps(file: Path, paper: Paper) -> list[str]:
+    """What to do with a draft of which nothing has been accepted yet; empty for any other file."""
+    if not all(claim.unchecked for claim in paper.claims):
+        return []
+    reader = reader_of(file)
+    waiting = sum(bool(reading.understood) for reading in reader.readings)
+    if not waiting:
+        return []
+    told = [f"No claim of {file} can be judged yet: {waiting} readings wait for you."]
+    if reader.declared.paper is NONE:
+        told.append("Answer the four questions at the top of the file: body and the table [paper].")
+    if left := [name for name, formula in reader.declared.symbols.items() if not formula]:
+        told.append(f"Give meanings in [symbols] or [variables] to {', '.join(left)}.")
+    return [*told, f"Then accept the readings: {command()} check {typed(file)} --accept"]
 
 
 def paper_of(file: Path | None, name: str | None) -> Paper:

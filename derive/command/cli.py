@@ -282,7 +282,7 @@ def check(
     paper by Andresen, Fleury, Moore and Hills (2020) is checked.  The exit status is 1 if a verdict
     is not the expected one.
     """
-    from derive.command.checking import accept_readings, paper_of, write_draft
+    from derive.command.checking import accept_readings, next_steps, paper_of, write_draft
 
     if drafted is not None:
         write_draft(file, drafted, inline)
@@ -302,6 +302,10 @@ def check(
         demand_page(page, "--html")
 
     paper = paper_of(file, explain)
+    is_short = form == "table" and explain is None and page is None
+    if is_short and file is not None and (steps := next_steps(file, paper)):
+        click.echo("\n".join(steps))
+        sys.exit(FELL_SHORT)
     with progress(len(paper.claims), ("checking",)) as step:
         findings = list[Finding]()
         for claim in paper.claims:

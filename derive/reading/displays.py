@@ -14,6 +14,8 @@ _MOST = 500
 """The largest number of displays in a file."""
 _LONGEST_LINE = 300
 """A formula in the text must have fewer characters than this."""
+_NEAR = 80
+"""The number of characters before a formula in the text in which such a word stands."""
 _EXPANDED = 20_000
 """The largest number of characters in a display after its macros are expanded."""
 _EXPANSIONS = 1000
@@ -35,6 +37,11 @@ _MACRO = re.compile(
     r"\s*(?:\[([1-9])\])?\s*(?=\{)|\\def\s*(\\[A-Za-z]+)\s*(?=\{)"
 )
 _INLINE = re.compile(r"(?<![\\$])\$([^$]+)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
+_DEFINES = re.compile(
+    r"\b(?:where|here|with|let|put|set|write|denot\w*|defin\w*)\W(?:[^.$\\]|\\[ ,])*$",
+    re.IGNORECASE,
+)
+"""Words before a formula in the text that make it a definition."""
 _RELATION = r"(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))"
 
 
@@ -59,13 +66,13 @@ class Source:
     """The content of a LaTeX file.
 
     found         the displays, and the relations in the text if they were requested
+    definitions   otherwise, those relations in the text that follow a word such as "where"
     environments  the number of displays
-    text          the source without comments
     """
 
     found: list[Display]
+    definitions: list[Display]
     environments: int
-    text: str
 
 
 @dataclass
@@ -94,14 +101,14 @@ def displays(path: Path, inline: bool = False) -> Source:
     start = max(text.find(r"\begin{document}"), 0)
     macros, found, between, count = _macros(text[:start]), list[Display](), text, 0
 
-    def add(latex: str, at: int, number: str = "") -> None:
+    def made(latex: str, at: int, number: str = "") -> Display:
         line, labels = text.count("\n", 0, at) + 1, tuple(LABEL.findall(latex))
-        found.append(Display(number, labels, line, _expanded(latex, macros).strip()))
+        return Display(number, labels, line, _expanded(latex, macros).strip())
 
     for (before, at, end, after), kind, numbers in _bodies(str(path), text, start):
         if kind.rstrip("*") in _TABLES:
             if re.search(r"\d", text[at:end]):
-                add(text[before:after], before)
+                found.append(made(text[before:after], before))
             continue
         between, count = between[:before] + " " * (after - before) + between[after:], count + 1
         if count > _MOST:
@@ -109,15 +116,20 @@ def displays(path: Path, inline: bool = False) -> Source:
             raise BadClaimsFile(str(path), why, "split it into smaller files")
         for rows in _groups(text[at:end], kind):
             printed = (numbers.of(row, kind.endswith("*")) for row in rows)
-            add("".join(rows).removesuffix(r"\\"), at, ", ".join(filter(None, printed)))
+            latex = "".join(rows).removesuffix(r"\\")
+            found.append(made(latex, at, ", ".join(filter(None, printed))))
             at += len("".join(rows))
-    for each in _INLINE.finditer(between, start) if inline else ():
-        latex = each[1] or each[2]
+    definitions = list[Display]()
+    for each in _INLINE.finditer(between, start):
+        latex, words = each[1] or each[2], between[max(each.start() - _NEAR, start) : each.start()]
         is_relation = re.search(rf"[^\s{{(]\s*{_RELATION}\s*[^\s}})]", latex)
         if is_relation and len(latex) < _LONGEST_LINE:
-            add(latex, each.start())
+            if inline:
+                found.append(made(latex, each.start()))
+            elif _DEFINES.search(words):
+                definitions.append(made(latex, each.start()))
     found = sorted(found, key=lambda each: each.line)[: _MOST if inline else None]
-    return Source(found, count, text)
+    return Source(found, definitions[:_MOST], count)
 
 
 def _text(path: Path) -> str:

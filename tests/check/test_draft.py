@@ -68,11 +68,31 @@ def test_a_draft_says_what_was_read_and_judges_nothing(tmp_path: Path) -> None:
     assert claims["law/1"]["understood"] == "P = integral(p_at_x, x, -a, a)"
     assert claims["law/2"]["accepted"] is False
     assert {"P", "p_at_x", "K_T", "Q"} <= data["symbols"].keys()
-    assert data["symbols"]["P"]["proposal"] == "load(a, c)"
+    assert data["symbols"]["P"]["proposal"] == "integral(p_at_x, x, -a, a)"
     assert "understood" not in claims["(5)"]
     told = json.loads(run(new, "--format", "json").stdout)
     assert {each["verdict"] for each in told} == {"unchecked"}
     assert all(each["reason"] for each in told)
+
+
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [
+        ("law/2", "law/2"),
+        ("eq. (2)", "first"),
+        ("(2)", "first"),
+        ("2", "first"),
+        ("eq. (2), paper.tex:9", "first"),
+        ("paper.tex:9", "first"),
+    ],
+)
+def test_a_claim_is_found_by_its_label_its_place_or_its_number(
+    name: str, label: str, tmp_path: Path
+) -> None:
+    new = tmp_path / "draft.toml"
+    run(written(tmp_path, PAPER), "--draft", new)
+    done = run(new, "--explain", name)
+    assert (done.exit_code, done.output.split()[0]) == (1, label), done.output
 
 
 @pytest.mark.parametrize("command", ["draft", "accept", "edge"])
@@ -131,8 +151,7 @@ def test_a_draft_asks_where_it_is_not_sure(tmp_path: Path) -> None:
     assert claims["one"]["understood"] == "p_at_x = P/2*sign(x)"
     assert claims["two"]["require"] == "abs(x) < a"
     assert claims["line 10"]["understood"] == "a = b/2"
-    assert data["symbols"]["P"]["meaning"] == "normal load"
-    assert data["symbols"]["P"]["unit"] == "N/m"
+    assert data["symbols"]["P"] == data["symbols"]["p_at_0"] == ""
     assert {each["verdict"] for each in json.loads(run(new, "--format", "json").stdout)} == {
         "unchecked"
     }

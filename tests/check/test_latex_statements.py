@@ -7,7 +7,6 @@ import pytest
 from sympy import Symbol
 
 from derive.check.draft import Draft, draft_claims
-from derive.check.proposals import proposal
 from derive.check.userfile import read_claims
 from derive.check.verdict import check
 from derive.command.errors import BadFormula
@@ -424,23 +423,6 @@ def test_a_plain_integral_over_a_pole_is_noted(tmp_path: Path) -> None:
     assert "write \\fint for \\int" in made.told("note")[0]
     assert "# \\int may run over a pole at s = x" in made.text()
     assert not drafted(tmp_path, r"\[ y = \int_{0}^{a} \frac{p(s)}{s}\,ds \]").told("note")
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "formula", "unit"),
-    [
-        ("F_at_x", "superposed flat punches of weight $F(x)$", "", "Pa"),
-        ("F_at_s", "superposed flat punches of weight $F(s)$", "punch(s, s)", "Pa"),
-        ("m", "put $m$ in", "", ""),
-        ("m", "the stick zone $[-m, n]$", "", "m"),
-        ("P", "", "load(a, c)", "N/m"),
-        ("P_0", "", "", "N/m"),
-        ("alpha_1", "", "", ""),
-    ],
-)
-def test_proposals(name: str, text: str, formula: str, unit: str) -> None:
-    found = proposal(name, text)
-    assert (found.formula, found.unit) == (formula, unit)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from sympy import Symbol, symbols
 from derive.check.accept import accept
 from derive.check.printed import Reading
 from derive.check.schema import ClaimsFile, Entry
-from derive.check.userfile import open_readings
+from derive.check.userfile import reader_of
 from derive.command.errors import BadFormula
 from derive.reading.formula import Names, equation, formula
 from tests.check.asking import run, told, written
@@ -411,7 +411,7 @@ def test_a_message_points_to_the_place(text: str, column: int) -> None:
 def test_what_was_understood_must_be_accepted(tmp_path: Path) -> None:
     claim = "[[claims]]\nlabel = 'area'\nlatex = 'A = \\pi R^2'\n"
     path = written(tmp_path, HEAD + claim)
-    (reading,) = open_readings(path)
+    (reading,) = reader_of(path).readings
     assert "A = " in reading.understood
     (it,) = told(tmp_path, HEAD + claim)
     assert it["verdict"] == "unchecked"
@@ -445,11 +445,15 @@ def test_readings_are_accepted_one_by_one(tmp_path: Path) -> None:
     path = written(tmp_path, TO_ACCEPT)
     assert "0 accepted, 2 left" in run(path, "--accept", answers="n\nq\n").output
     assert path.read_text() == TO_ACCEPT
-    done = run(path, "--accept", answers="all\n\n")
-    assert "'all' is not y" in done.output and "0 accepted, 2 left" in done.output
+    done = run(path, "--accept", answers="every\n\n")
+    assert "'every' is not y" in done.output and "0 accepted, 2 left" in done.output
     assert path.read_text() == TO_ACCEPT
+    assert "2 accepted, 0 left" in run(path, "--accept", answers="all\n").output
+    path.write_text(TO_ACCEPT)
+    assert "1 accepted, 1 left" in run(path, "--accept", answers="y\n").output  # the input ends
+    path.write_text(TO_ACCEPT)
     assert "1 accepted, 1 left" in run(path, "--accept", answers="n\ny\n").output
-    assert [each.entry.label for each in open_readings(path)] == ["first"]
+    assert [each.entry.label for each in reader_of(path).readings] == ["first"]
     assert "1 accepted, 0 left" in run(path, "--accept", answers="y\n").output
     assert run(path).exit_code == 0
     before, after = (tomllib.loads(text)["claims"] for text in (TO_ACCEPT, path.read_text()))
