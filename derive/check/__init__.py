@@ -25,6 +25,7 @@
     declarations   the file's own tables     body, ranges, units and spellings for all claims
     context        body, symbols, equation   the equation with its calls replaced by formulas
     printed        a claim's equation        its text, or the reading of its LaTeX to be accepted
+    equation       a claim's equation        the comparison that it stands for
     claim_table    table [[claims]]          a claim, which is unchecked if an entry is wrong
     userfile       claims file in TOML       its claims
     andresen2020/                            claims files of the paper that introduced the method

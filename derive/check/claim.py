@@ -97,6 +97,7 @@ class AsMeant:
     basis        what the verdict rests on, unless the body's formulas turn out not to matter
     called       the sides to compare, in our variables, with the body's formulas as functions
     given        the claims that are taken as true
+    alone        with such claims: the same claim by the file's own meanings, without them
     rounded      the constant that is printed rounded, if there is exactly one
     swaps        symbols that may have been confused with each other
     unit_of      the units of the names in the equation and of the variables, where they are known
@@ -118,6 +119,7 @@ class AsMeant:
     basis: Basis = Basis.MATHEMATICS
     called: tuple[Expr, ...] = ()
     given: tuple["Claim", ...] = ()
+    alone: "Claim | None" = None
     rounded: Rounded | None = None
     swaps: tuple[Symbol, ...] = ()
     unit_of: Mapping[Symbol, str] = field(default_factory=dict)

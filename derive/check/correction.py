@@ -185,7 +185,9 @@ def _scaled(claim: Claim) -> Iterator[Repair]:
         return
     ratio = quotient(claim)
     constant = simple(ratio.constant) if ratio is not None else None
-    if ratio is not None and constant is not None and _may_be_lost(claim, ratio.powers):
+    if ratio is None or constant is None:
+        return
+    if ratio.powers == 1 or (constant == 1 and _may_be_lost(claim, ratio.powers)):
         factor = constant * ratio.powers
         what = f"{factor} on {WHOLE}"
         yield _changed(claim, claim.meant.left, factor * claim.meant.right, "factor", what)
@@ -197,8 +199,6 @@ def _may_be_lost(claim: Claim, powers: Expr) -> bool:
     It is a power of one name, or of a bracket with printed names.  The units must need it, or the
     formulas of the body, because any definition can be made true by a name that it does not have.
     """
-    if powers == 1:
-        return True
     sizes = {abs(power) for power in powers.as_powers_dict().values()}
     is_one = len(powers.free_symbols) == 1 or powers.free_symbols <= claim.meant.right.free_symbols
     is_needed = bool(claim.units) or claim.meant.basis == Basis.BODY

@@ -104,6 +104,7 @@ def explanation(finding: Finding) -> list[Told]:
         Told("symbols", _meanings(claim)),
         Told("verdict", [str(finding.verdict), *lines_of(finding.judged.why), finding.partly]),
         Told("rests on", [finding.rests_on]),
+        Told("step", lines_of(finding.step)),
         Told("units", [claim.units]),
         Told("convention", _convention(finding)),
         Told("search", [*search, in_vain]),
@@ -138,7 +139,7 @@ def evidence(finding: Finding) -> str:
         *_search(finding),
     ]
     rests_on = f"rests on {finding.rests_on}" if finding.rests_on else ""
-    return "; ".join(filter(None, [*parts, rests_on]))
+    return "; ".join(filter(None, [*parts, rests_on, finding.step]))
 
 
 def _convention(finding: Finding) -> list[str]:
@@ -269,6 +270,7 @@ def remark(finding: Finding) -> str:
         if finding.repair is not None:
             found = f"correct is {_text(finding.repair)}"
         parts += [found, stopped, finding.partly]
+    parts.append(finding.step)
     return "; ".join(filter(None, parts))
 
 
@@ -301,6 +303,7 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
             "coverage": covered(finding),
             "symbols": finding.claim.symbols,
             "given": {each.claim.entry.label: str(each.verdict) for each in finding.given},
+            "error_enters_at": [claim.entry.label for claim in finding.error_enters_at],
             "printed": printed(finding.claim),
             "corrected": corrected(finding),
             "diagnosis": finding.diagnosis or None,

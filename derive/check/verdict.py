@@ -36,6 +36,7 @@ class Finding:
     partly      where the claim is true, if it is true at some points and false at others
     basis       what the verdict rests on; None if the claim is unchecked
     given       the findings of the claims that are taken as true
+    alone       with such claims: the result by the meanings of the file, if it is known
     """
 
     claim: Claim
@@ -49,6 +50,7 @@ class Finding:
     partly: str = ""
     basis: Basis | None = None
     given: tuple["Finding", ...] = ()
+    alone: Judged | None = None
 
     @property
     def unsound(self) -> Verdict | None:
@@ -57,8 +59,46 @@ class Finding:
         return min(filter(None, found), key=lambda each: each != Verdict.FAILS, default=None)
 
     @property
+    def _is_true_alone(self) -> bool:
+        return self.alone is not None and self.alone.good
+
+    @property
+    def error_enters_at(self) -> tuple[Claim, ...]:
+        """The first wrong claims in the derivation of this one, as far as they are known.
+
+        There are none if the claim is true without those given.  A claim that does not follow is
+        itself wrong if it is false without those given, or if all of them are true.
+        """
+        is_wrong = self.judged.verdict == Verdict.FAILS
+        if not self.given:
+            return (self.claim,) if is_wrong else ()
+        if self.judged.good if self._is_true_alone else self.verdict == Verdict.UNCHECKED:
+            return ()
+        found = [claim for each in self.given for claim in each.error_enters_at]
+        if is_wrong and (self.alone or not self.unsound):
+            found.append(self.claim)
+        return tuple({claim.entry.label: claim for claim in found}.values())
+
+    @property
+    def step(self) -> str:
+        """Whether a claim follows from those given and where the error enters, if there is one."""
+        at, is_wrong = self.error_enters_at, self.judged.verdict == Verdict.FAILS
+        if not self.given or not (at or is_wrong or (self.alone and not self._is_true_alone)):
+            return ""
+        follows = "it follows" if self.judged.good else "it does not follow"
+        told = [f"{follows} from {', '.join(each.claim.name for each in self.given)} as printed"]
+        names = ["at this claim" if claim is self.claim else f"at {claim.name}" for claim in at]
+        where = f"the error enters {' and '.join(names)}"
+        told.append(where if at else "it is not known where the error enters")
+        if is_wrong and at and self.claim not in at:
+            told.append("it is not known whether this claim is wrong, too")
+        return "; ".join(told)
+
+    @property
     def rests_on(self) -> str:
         """What the verdict rests on, in words; empty if the claim is unchecked."""
+        if self.basis is None:
+            return ""
         told = []
         for each in self.given:
             its = f", rests on {each.rests_on}" if each.given else ""
@@ -68,8 +108,9 @@ class Finding:
     @property
     def ground(self) -> str:
         """What the verdict rests on, in a word, with the verdict on what was given if not true."""
-        word = self.basis.word if self.basis else "-"
-        return f"{word} ({self.unsound})" if self.unsound else word
+        if self.basis is None:
+            return "-"
+        return f"{self.basis.word} ({self.unsound})" if self.unsound else self.basis.word
 
     @property
     def verdict(self) -> Verdict:
@@ -88,7 +129,11 @@ def check(claim: Claim, known: Iterable[Finding] = ()) -> Finding:
 
     known: findings for earlier claims, of which some may be taken as true here
     """
-    finding = _checked(claim)
+    by_label = {each.claim.entry.label: each for each in known}
+    given = tuple(
+        by_label.get(each.entry.label) or check(each, known) for each in claim.meant.given
+    )
+    finding = _checked(claim, given)
     if finding.verdict == Verdict.UNCHECKED:
         return finding
     if finding.judged.good and _attempted(claim, lambda look: is_empty(claim, look))[0]:
@@ -99,26 +144,50 @@ def check(claim: Claim, known: Iterable[Finding] = ()) -> Finding:
     if finding.verdict == Verdict.HOLDS and rests_on == Basis.DEFINITIONS:
         why = f"true by the definitions; {judged.why}"
         judged = replace(judged, verdict=Verdict.DEFINITION, why=why)
-    by_label = {each.claim.entry.label: each for each in known}
-    given = tuple(by_label.get(each.entry.label) or check(each) for each in claim.meant.given)
-    return replace(finding, judged=judged, basis=rests_on, given=given)
+    return replace(finding, judged=judged, basis=rests_on)
 
 
-def _checked(claim: Claim) -> Finding:
-    """Return the verdict on one claim; if the work is interrupted, it is `unchecked`."""
+def _checked(claim: Claim, given: tuple[Finding, ...]) -> Finding:
+    """Return the verdict on one claim; if the work is interrupted, it is `unchecked`.
+
+    A claim that does not follow from wrong ones is corrected without them.
+    """
     if claim.unchecked:
         return Finding(claim, Judged(Verdict.UNCHECKED, claim.unchecked))
     found, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
     judged = found or Judged(Verdict.UNCHECKED, stopped)
+    if claim.meant.alone is not None:
+        return _step(Finding(claim, judged, given=given), claim.meant.alone)
     if judged.verdict == Verdict.FAILS:
-        return _explained(_mended(claim, judged))
+        return replace(_explained(_mended(claim, judged)), given=given)
     if judged.one_side_real:
         real = judged.one_side_real
         why = f"one side is real at all {real} points, but the other is real at none of them"
         finding = _mended(claim, Judged(Verdict.FAILS, why))
         if finding.repair is not None or finding.convention is not None:
-            return finding
-    return Finding(claim, judged)
+            return replace(finding, given=given)
+    return Finding(claim, judged, given=given)
+
+
+def _step(finding: Finding, alone: Claim) -> Finding:
+    """Return the finding for a claim with given ones, which is also judged without them.
+
+    A claim that is true without them, but does not follow, is `unchecked`.  If one of those given
+    fails, a false claim is corrected without them, and not at all if it cannot be judged so.
+    """
+    found, _ = _attempted(alone, lambda look: judge_as_printed(alone, look))
+    if found is not None and found.verdict != Verdict.UNCHECKED:
+        finding = replace(finding, alone=found)
+    if finding.verdict != Verdict.FAILS:
+        return finding
+    if finding._is_true_alone:
+        why = "true by the meanings of the file, but not with those that are given"
+        return replace(finding, judged=replace(finding.judged, verdict=Verdict.UNCHECKED, why=why))
+    source = finding.claim if finding.unsound != Verdict.FAILS else alone if finding.alone else None
+    if source is None:
+        return finding
+    mended = _explained(_mended(source, finding.judged))
+    return replace(mended, claim=finding.claim, given=finding.given, alone=finding.alone)
 
 
 def _mended(claim: Claim, judged: Judged) -> Finding:
