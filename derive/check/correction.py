@@ -23,7 +23,7 @@ from derive.check.tending import Approach
 from derive.command.limit import LookAtClock
 from derive.proof.values import Undecided, evaluated
 from derive.reading.relation import Relation
-from derive.reading.units import Units, parse_unit
+from derive.reading.units import Dimension, Units, parse_unit
 
 _SCREENED = 3
 """Number of points at which a correction is screened before it is judged in full."""
@@ -156,18 +156,20 @@ def swaps_on_right(claim: Claim) -> tuple[Symbol, ...]:
     return tuple(name for name in claim.meant.swaps if keep or name != claim.meant.left)
 
 
-def _units_fit(claim: Claim, left: Expr, right: Expr) -> bool:
-    """Whether the units of an equation fit, as far as they are known."""
-    known = {symbol: parse_unit(unit) for symbol, unit in claim.meant.unit_of.items()}
-    return not Units(known).mismatch(left, right)
+def _units_of(claim: Claim) -> dict[Symbol, Dimension]:
+    return {symbol: parse_unit(unit) for symbol, unit in claim.meant.unit_of.items()}
 
 
 def _names(claim: Claim, swaps: tuple[Symbol, ...], other: Expr) -> Names:
     """Return the names for changes of one side, of which the other side stays."""
-    units = claim.meant.unit_of.items()
-    known = {symbol: parse_unit(unit) for symbol, unit in units if symbol != other}
-    fits = partial(_units_fit, claim, other) if claim.units else None
-    return swappable(swaps, known, fits)
+    known = _units_of(claim)
+    units = {symbol: unit for symbol, unit in known.items() if symbol != other}
+    return swappable(swaps, units, partial(_fit, known, other) if claim.units else None)
+
+
+def _fit(known: Mapping[Symbol, Dimension], left: Expr, right: Expr) -> bool:
+    """Whether the units of an equation fit, as far as they are known."""
+    return not Units(known).mismatch(left, right)
 
 
 def _single(claim: Claim) -> Iterator[Repair]:
@@ -189,8 +191,8 @@ def _scaled(claim: Claim) -> Iterator[Repair]:
         return
     if ratio.powers == 1 or (constant == 1 and _may_be_lost(claim, ratio.powers)):
         factor = constant * ratio.powers
-        what = f"{factor} on {WHOLE}"
-        yield _changed(claim, claim.meant.left, factor * claim.meant.right, "factor", what)
+        changed = factor * claim.meant.right
+        yield _changed(claim, claim.meant.left, changed, "factor", f"{factor} on {WHOLE}")
 
 
 def _may_be_lost(claim: Claim, powers: Expr) -> bool:
@@ -222,7 +224,7 @@ class _Screen:
     """Tests candidates at a few points; the values that they share are computed only once."""
 
     def __init__(self, claim: Claim, look: LookAtClock) -> None:
-        self.claim, self.look = claim, look
+        self.claim, self.look, self.units = claim, look, _units_of(claim)
         toward = claim.meant.toward
         self.approach = None if toward is None else Approach(claim, toward)
         self.known: dict[tuple[object, ...], Mapping[Symbol, Any]] = {}
@@ -244,8 +246,8 @@ class _Screen:
         try:
             if self.approach is not None:
                 found, _ = self.approach.judged(sides.in_variables, self.look)
-                fit = found == Verdict.NUMERICAL
-                return fit and _units_fit(self.claim, candidate.left, candidate.right)
+                is_true = found == Verdict.NUMERICAL
+                return is_true and _fit(self.units, candidate.left, candidate.right)
             return all(
                 near(*sides.at_points, sides.numbers(point)) and sides.pair(point).agree
                 for point in self.points

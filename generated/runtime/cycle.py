@@ -155,11 +155,13 @@ def stick_zones(body: Body, given: Own, constants: Own, own: Own, mixed: bool) -
 
 def _varies(given: Own) -> bool:
     """Whether any contact may change; Dask arrays are not compared."""
-    a, c, a_2, c_2, *_ = given.values()
-    return any(
-        one is not two and (any_lazy([one, two]) or not np.array_equal(one, two))
-        for one, two in ((a, a_2), (c, c_2))
-    )
+    edges = {name: given[name] for name in list(given)[:4]}
+    a, c, a_2, c_2 = edges.values()
+    if a is a_2 and c is c_2:
+        return False
+    a, c, a_2, c_2 = numbers_of(edges, {}).values()
+    is_lazy = any_lazy([a, c, a_2, c_2])
+    return is_lazy or not (np.array_equal(a, a_2) and np.array_equal(c, c_2))
 
 
 def _mixed_stick_zone(body: Body, given: Own, constants: Own, own: Own) -> StickZone:
