@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from sympy import Derivative, Expr, Integral, Limit, Piecewise, Symbol
+from sympy import Derivative, Expr, Integer, Integral, Limit, Piecewise, Symbol, true
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
@@ -184,7 +184,18 @@ class Context:
         return self.substitute(expr.xreplace(self.meant.in_variables))
 
     def conditions(self, expr: Expr) -> Iterator[Boolean]:
-        """Yield the conditions under which the formulas called in an expression are defined."""
+        """Yield the conditions under which the formulas called in an expression are defined.
+
+        Those of a case of a formula apply where this case does.
+        """
+        cases = expr.atoms(Piecewise)
+        for each in sorted(cases, key=str):
+            others: Boolean = true
+            for value, condition in each.args:
+                taken = self.substitute(condition & others)
+                yield from (~taken | needed for needed in self.conditions(value))
+                others &= ~condition
+        expr = expr.xreplace(dict.fromkeys(cases, Integer(0)))
         for call in sorted(expr.atoms(AppliedUndef), key=str):
             known = self.sheet[call.func.__name__]  # type: ignore[index]
             table = {**self._renamed, **dict(zip(known.arguments, call.args, strict=True))}

@@ -65,7 +65,7 @@ d[P]_d[a]; load_rate(edges); Pa; slope of the contact law; symmetric
 
 Q; f*(load(edges) - load(stick)); N/m; shear load, at constant normal load
 [Q]_max; f*(load(edges) - load(stick)); N/m; largest shear load, at constant normal load
-q; f*(pressure(x, edges) - pressure(x, stick)); Pa; shear traction at the largest shear load
+q; f*(pressure(x, edges) - stick_pressure); Pa; shear traction at the largest shear load
 d[Q]_d[m]; -f*load_rate(stick); Pa; slope of the shear load at constant normal load; symmetric even
 sigma; 2*f*E_star*(tilt(edges) - tilt(stick)); Pa; bulk tension on first loading; tension
 Delta_[Q]; 2*f*(load(edges) - load(stick)); N/m; range of the shear load
@@ -74,7 +74,7 @@ Delta_[sigma]; 4*f*E_star*(tilt(edges) - tilt(stick)); Pa; range of the bulk ten
 """Our letter, formula, unit, meaning, and the cases in which the row applies, all of which must be
 true.  A letter without a formula is a variable.  Parts in brackets follow the paper's letters: if a
 is l, d[P]_d[a] is dP_dl.  `left` and `right`, or both as `edges`, are the ends of the contact, and
-likewise those of the stick zone."""
+likewise those of the stick zone.  `stick_pressure` is that of the stick zone, zero beside it."""
 _RANGES: dict[str, dict[str, Any]] = {"nu": {"low": 0, "high": 0.5}, "kappa": {"low": 1, "high": 3}}
 _STICK = {"even": ("m", "m"), "uneven": ("m", "n"), "eccentric": ("d - e", "d + e")}
 _CONSTANTS = {"E", "mu"}
@@ -128,7 +128,7 @@ class Standard:
             entry, at = self.symbols.get(_stem(name)), name.partition("_at_")[2]
             is_place = entry and "(x, " in entry["is"] and (at.isdigit() or at in names)
             if entry and _stem(name) not in others and (is_place or not at):
-                found[name] = {**entry, "is": entry["is"].replace("(x, ", f"({at or 'x'}, ")}
+                found[name] = {**entry, "is": re.sub(r"\bx\b", at or "x", entry["is"])}
         return found
 
 
@@ -154,6 +154,8 @@ def standard(answers: Answers, geometry: Geometry, place: Place) -> Standard:
     names = letters | {ours: ours for ours in _CONSTANTS & rows.keys()} | said
     _demand_clear(names, rows.keys(), place)
     ends = {"edges": ", ".join(edges), "stick": ", ".join(stick)}
+    inside = f"-({stick[0]}) < x and x < {stick[1]}"
+    ends |= {"stick_pressure": f"Piecewise((pressure(x, {ends['stick']}), {inside}), (0, True))"}
     ends |= {"left": edges[0], "right": edges[1], "stick_left": stick[0], "stick_right": stick[1]}
     variables, symbols = dict[str, dict[str, Any]](), dict[str, dict[str, Any]]()
     for ours, row in rows.items():
@@ -164,8 +166,8 @@ def standard(answers: Answers, geometry: Geometry, place: Place) -> Standard:
         elif ours in names or name not in names.values():
             formula = _replaced(_WORD, letters, _replaced(_WORD, ends, row.formula))
             symbols[name] = entry | {"is": re.sub(r"(?<!\w)\((\w+)\)", r"\1", formula)}
-    inside = {f"{end} < {edge}" for end, edge in zip(stick, edges, strict=True)}
-    conditions = tuple(_replaced(_WORD, letters, each) for each in sorted(inside))
+    within = {f"{end} < {edge}" for end, edge in zip(stick, edges, strict=True)}
+    conditions = tuple(_replaced(_WORD, letters, each) for each in sorted(within))
     return Standard(letters, variables, symbols, conditions)
 
 

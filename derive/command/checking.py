@@ -76,6 +76,7 @@ def _answers() -> tuple[tuple[str, dict[str, Any]] | tuple[()], Standard]:
         entries = {**ours.variables, **ours.symbols}.items()
         told = "; ".join(f"{letter}, {entry['meaning']}" for letter, entry in entries)
         click.echo(folded(f"Our letters: {told}"))
+        click.echo("A stick zone off the middle has d and e in place of m, or the ends m and n.")
         asked = r"4. Letters of the paper that differ, such as m = b, f = \mu"
         chosen = click.prompt(asked, "", show_default=False, value_proc=meanings)
     except click.Abort:

@@ -320,7 +320,7 @@ def check(
         output(view.checked(findings))
     if page is not None:
         put_page(documents.FORMS["html"](paper, findings), page, "--html")
-        click.echo(f"Wrote {path_of(page.resolve())}")
+        click.echo(f"Wrote {path_of(page.resolve())}", err=form != "table")
     elif form == "table" and explain is None:
         given = "" if file is None else f"{typed(file)} "
         click.echo(f"More: {command()} check {given}--explain CLAIM, or --html PAGE for all claims")

@@ -116,6 +116,23 @@ def test_a_line_of_the_user_beats_the_standard_meaning(
     assert it["verdict"] in GOOD, it["reason"]
 
 
+@pytest.mark.parametrize(
+    ("printed", "require", "verdict"),
+    [
+        ("q_at_x = f*p_at_x", "m < x < a", "numerical"),
+        ("q_at_x = 2*f*p_at_x", "m < x < a", "fails"),
+        ("q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - sqrt(m**2 - x**2)/a)", "-m < x < m", "numerical"),
+    ],
+)
+def test_shear_is_at_the_friction_limit_where_it_slips(
+    printed: str, require: str, verdict: str, tmp_path: Path
+) -> None:
+    """p(x) - p_s(x) within the stick zone, p(x) = p_0 sqrt(1 - x**2/a**2) beside it."""
+    head = "body = 'hertz'\n[paper]\nsymmetric = true\n"
+    (found,) = told(tmp_path, head + claim(printed, f"require = '{require}'" if require else ""))
+    assert found["verdict"] == verdict
+
+
 def test_a_stick_zone_lies_within_its_contact(tmp_path: Path) -> None:
     head = "body = 'hertz'\n[paper]\nsymmetric = true\n"
     (it,) = told(tmp_path, head + claim("Abs(P - Q/f - load(m, m)) + Abs(a - m) = a - m"))
