@@ -192,8 +192,13 @@ def _level(slope: Any, own: Any, breaks: Any, alpha: float) -> float:
             low = x
         else:
             high = x
-        if abs(by) <= rounding or high - low <= rounding:
+        if value == 0 or high - low <= rounding:
             break
+        if abs(by) <= rounding:  # at the root, or next to a point where the slope is infinite
+            beyond = slope(side * (x + math.copysign(4 * rounding, by)), own)[0] + alpha
+            if (side * beyond < 0) != (value < 0):
+                break
+            step = 0.0
         if not abs(by) <= step / 2:
             by = math.inf if value < 0 else -math.inf
         last, x = x, _moved(x, by, start, high, low, high)
