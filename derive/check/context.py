@@ -188,7 +188,8 @@ class Context:
 
         Those of a case of a formula apply where this case does.
         """
-        cases = expr.atoms(Piecewise)
+        every = expr.atoms(Piecewise)
+        cases = {each for each in every if not any(o != each and o.has(each) for o in every)}
         for each in sorted(cases, key=str):
             others: Boolean = true
             for value, condition in each.args:

@@ -37,6 +37,9 @@ from ..slip.zone import each_zone_of_regime
 from ..types import Array, Contact, Edges, March, Regime, Values
 from .refine import steady_cycle
 
+LOADS = ("P", "M", "Q", "sigma")
+"""The loads of a history, in the order of their rows."""
+
 MAX_LAST_STEP = 0.99
 """Largest step from the last instant back to the first, as a part of the way between the states."""
 
@@ -79,9 +82,8 @@ def march(
     E_star: Values,
 ) -> March:
     """A steady cycle instant by instant."""
-    numbers = numbers_of(
-        {"P": P, "M": M, "Q": Q, "sigma": sigma}, {"f": f, "E_star": E_star, **own}
-    )
+    named = dict(zip(LOADS, (P, M, Q, sigma), strict=True))
+    numbers = numbers_of(named, {"f": f, "E_star": E_star, **own})
     shape = shape_of(numbers)
     if any_lazy(numbers.values()):
         axes = dict.fromkeys(March._fields, "t")
@@ -94,13 +96,12 @@ def march(
     held = {name: _held(numbers[name], shape) for name in ("f", *own)}
     friction = held.pop("f")
     with np.errstate(all="ignore"):
-        loads = [numbers[name] / numbers["E_star"] for name in ("P", "M", "Q", "sigma")]
-        every = np.stack([np.broadcast_to(v, shape) for v in loads])
-        states, cycles = in_phase(body, held, friction, every, False)
-        limited = np.isin(states.regime[..., 0], (Regime.LARGE, Regime.FULL_STICK))
+        loads = [np.broadcast_to(numbers[name] / numbers["E_star"], shape) for name in LOADS]
+        states, cycles, regimes = in_phase(body, held, friction, np.stack(loads), False)
+        limited = np.isin(regimes, (Regime.LARGE, Regime.FULL_STICK))
         for case in map(tuple, np.argwhere(limited)):
-            regime, cycle = states.regime[case][0], cycles[:, *case]
-            if is_limited(regime, cycle):
+            cycle = cycles[:, *case]
+            if is_limited(regimes[case], cycle):
                 here = {name: v[case][0] for name, v in held.items()}
                 found = steady_cycle(body, here, friction[case][0], cycle, np.zeros(0), ROUGH_TOL)
                 if found.regime == Regime.NO_STICK:
@@ -128,8 +129,9 @@ def _held(value: Any, shape: tuple[int, ...]) -> Any:
     return held[..., :1]
 
 
-def in_phase(body: Body, own: Own, f: Array, loads: Array, mixed: bool) -> tuple[Any, Array]:
-    """The states at all instants, and the loads of a cycle between their extremes, for E* = 1.
+def in_phase(body: Body, own: Own, f: Array, loads: Array, mixed: bool) -> tuple[Any, Array, Array]:
+    """The states at all instants, and the loads of a cycle between their extremes with its regime,
+    for E* = 1.
 
     f and own have one instant.
     loads: P, M, Q and sigma
@@ -168,9 +170,9 @@ def in_phase(body: Body, own: Own, f: Array, loads: Array, mixed: bool) -> tuple
     slips = exists & (regime != Regime.FULL_STICK)
     left = np.where(slips, np.where(large & backward, -sense, sense), 0)
     m, n = np.where(exists, zone, np.nan)
-    regime = np.where(asked & ~exists, Regime.UNSOLVED, regime)
-    states = March(contact.a, contact.c, m, n, left, np.where(large, -left, left), regime)
-    return states, cycle
+    found = np.where(asked & ~exists, Regime.UNSOLVED, regime)
+    states = March(contact.a, contact.c, m, n, left, np.where(large, -left, left), found)
+    return states, cycle, regime[..., 0]
 
 
 # ---------------------------------------------------------------- the mean shear load

@@ -15,11 +15,9 @@ from ..cycle import Own, contact, slip_range
 from ..types import Array, History, Regime, SteadyCycle, StickZone, Values
 from . import refine
 from .loops import stick_zone_of_loop
-from .march import in_phase, is_limited
+from .march import LOADS, in_phase, is_limited
 from .march import march as march
 from .reversals import exact_history
-
-_LOADS = ("P", "M", "Q", "sigma")
 
 _INSTANTS = {name: "t" for name in History._fields} | {"q": "t,p", "slip": "t,p"}
 _CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": "p"}
@@ -76,7 +74,7 @@ def steady_cycle(
             call, "steady_cycle", numbers, (own,), _CYCLES, np.asarray(x).shape
         )
         return lazy
-    numbers |= dict(zip(_LOADS, _closed([numbers[k] for k in _LOADS]), strict=True))
+    numbers |= dict(zip(LOADS, _closed([numbers[k] for k in LOADS]), strict=True))
     zones = _exact(body, tuple(own), numbers)
     found: SteadyCycle = _each(
         partial(_cycle, zones), SteadyCycle, _CYCLES, body, own, numbers, x, tol
@@ -111,7 +109,7 @@ def _numbers(
         raise ValueError(f"tol must be positive and finite; got {tol!r:.60}")
     if any_lazy([x]):
         raise TypeError("x must be a number or a NumPy array, not a Dask array: pass x.compute()")
-    named = dict(zip(_LOADS, loads, strict=True))
+    named = dict(zip(LOADS, loads, strict=True))
     numbers = numbers_of(named, {"f": f, "E_star": E_star, **own})
     if 0 in shape_of(numbers)[-1:]:
         raise ValueError("the last axis is time and must contain at least one instant; it is empty")
@@ -153,7 +151,7 @@ def _each(
     for at in _shown(list(np.ndindex(*cases))):
         f, E_star = full["f"][at][0], full["E_star"][at][0]
         parameters = {name: full[name][at][0] for name in own}
-        loads = np.array([full[name][at] / E_star for name in _LOADS])
+        loads = np.array([full[name][at] / E_star for name in LOADS])
         with _one_thread()(), np.errstate(all="ignore"):
             found = solve(at, body, parameters, f, loads, points, tol)
         for name, value in found._asdict().items():
@@ -236,16 +234,16 @@ def _exact(body: Body, own: tuple[str, ...], numbers: Numbers) -> StickZone:
     """Exact stick zones; NaN for cycles without an exact solution."""
     shape = shape_of(numbers)
     full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
-    loads = np.stack([full[name] / full["E_star"] for name in _LOADS])
+    loads = np.stack([full[name] / full["E_star"] for name in LOADS])
     once = {name: full[name][..., :1] for name in own}
     with np.errstate(all="ignore"):
-        states, _ = in_phase(body, once, full["f"][..., :1], loads, True)
+        states, *_ = in_phase(body, once, full["f"][..., :1], loads, True)
     code = np.asarray(states.regime[..., 0])
     known = np.all(states.regime == code[..., None], axis=-1)
     m, n = (np.where(known, np.fmin.reduce(v, axis=-1), np.nan) for v in states[2:4])
     rest = np.isnan(m)
     if np.any(rest):
-        given = {name: full[name][rest] for name in (*_LOADS, "f", "E_star")}
+        given = {name: full[name][rest] for name in (*LOADS, "f", "E_star")}
         held = {name: full[name][rest] for name in own}
         m[rest], n[rest], _ = stick_zone_of_loop(body, held, **given)
         code = np.where(rest & np.isfinite(m), Regime.MODERATE, code)
