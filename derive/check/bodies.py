@@ -137,7 +137,7 @@ def _read(path: Path) -> OwnBody:
 
 def placed(expr: Expr, table: dict[Symbol, Expr]) -> Expr:
     """Substitute the arguments of a formula, and write acute angles with atan."""
-    return expr.subs(table, simultaneous=True).replace(atan2, _arc)
+    return expr.xreplace(table).replace(atan2, _arc)
 
 
 def _arc(over: Expr, under: Expr) -> Expr:
