@@ -39,12 +39,12 @@ _WHOLE = rf"(?:\\Delta (?!\\Delta )|\\dd )?{_BODY}"
 _CALL = ""
 for _ in range(3):  # arguments may be functions
     _ARGUMENT = rf"(?:\d+ (?=[,;)]|$)|{_WHOLE}{_CALL})"
-    _CALL = rf"(?:\( {_ARGUMENT}(?:[,;] {_ARGUMENT})*\) )?"
+    _CALL = rf"(?:\( (?:{_ARGUMENT}(?:[,;] (?!\))|(?=\))))+\) )?"
 _SYMBOL = _WHOLE + _CALL
-_TERM = rf"(?:\d+ (?:{_WHOLE})?|{_WHOLE})"
+_TERM = rf"(?:(?:\d+ )?{_WHOLE}|\d+ )"
 _TERM = rf"(?:{_TERM}(?:/ {_TERM})?|\\frac \{{ {_TERM}\}} \{{ {_TERM}\}} |\| {_TERM}\| )"
-_SUM = rf"(?:[+-] )?{_TERM}(?:[+-] {_TERM})*"
-_VALUE = re.compile(rf"\( ({_SUM}(?:[,;] {_SUM})*)\) ")
+_SUM = rf"(?:[+-] )?(?:{_TERM}(?:[+-] (?![,;)])|(?=[,;)])))+"
+_VALUE = re.compile(rf"\( ((?:{_SUM}(?:[,;] (?!\))|(?=\))))+)\) ")
 """Arguments of what is known to be a function."""
 _OPERATIONS = {"+": "plus", "-": "minus", "/": "over"}
 _TIMES = r"(?:\^ (?:\d |\{ \d \} ))?"

@@ -20,7 +20,7 @@ from tests.reference.solver import reference
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.enough("*STICKS", "*SHRINKS")
+@pytest.mark.enough("*SHRINKS")
 @pytest.mark.parametrize(
     ("point", "kind"),
     [
