@@ -4,14 +4,13 @@ Each takes the body, its parameters by name, and then the arguments of the publi
 docstring in the generated module says what it returns.
 """
 
-from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .arrays import numbers_of, real, shape_of, solved
 from .body import Body
-from .chunks import any_lazy, over_chunks
+from .chunks import any_lazy
 from .forward import each_contact, each_contact_at_tilt, each_pressure, each_series, each_state
 from .reasons import reason
 from .slip.series import each_slip_zones
@@ -147,7 +146,9 @@ def stick_zone(
 def stick_zones(body: Body, given: Own, constants: Own, own: Own, mixed: bool) -> StickZone:
     """Stick zones; `given` are the edges of both contacts, then dQ and dsigma, in this order."""
     if mixed:
-        return _mixed_stick_zone(body, given, constants, own)
+        from .slip.mixed import each_mixed_zone  # needs SciPy
+
+        return solved(each_mixed_zone, body, given, constants, own, StickZone, ("regime",))
     each = each_zone if _varies(given) else each_constant_zone
     zone: StickZone = solved(each, body, given, constants, own, StickZone, ("regime",))
     return zone
@@ -162,21 +163,6 @@ def _varies(given: Own) -> bool:
     a, c, a_2, c_2 = numbers_of(edges, {}).values()
     is_lazy = any_lazy([a, c, a_2, c_2])
     return is_lazy or not (np.array_equal(a, a_2) and np.array_equal(c, c_2))
-
-
-def _mixed_stick_zone(body: Body, given: Own, constants: Own, own: Own) -> StickZone:
-    """Stick zones, also of mixed cycles."""
-    numbers = numbers_of(given, {**constants, **own})
-    if any_lazy(numbers.values()):
-        call, groups = partial(_mixed_stick_zone, body), (given, constants, own)
-        lazy: StickZone = over_chunks(call, "stick_zone", numbers, groups)
-        return lazy
-    zone = stick_zones(body, given, constants, own, False)
-    if not np.any(zone.regime == Regime.MIXED):
-        return zone
-    from .slip.mixed import with_mixed  # needs SciPy
-
-    return with_mixed(body, own, numbers, zone)
 
 
 def why(

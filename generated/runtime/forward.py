@@ -4,11 +4,11 @@ The state, the pressure and the series are those of bodies without closed formul
 """
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
-from .body import Body
 from .inverse import contact, contact_at_tilt
 from .kernels import loop, opened
 
@@ -77,10 +77,10 @@ def each_break(law: Any, number: Any, own: Any, out: Any) -> None:
             out[i, k] = breaks[k]
 
 
-def breaks_of(body: Body, own: dict[str, Any]) -> Any:
-    """The points where the formula of the curve changes."""
-    number, parameters = np.zeros((1, 1)), np.array([[*own.values()]], dtype=float)
-    each_break(body.law, number, parameters, np.empty((1, 0)))
+def breaks_of(law: Any, own: Iterable[float]) -> Any:
+    """The points where the formula of the curve of a body with these parameters changes."""
+    number, parameters = np.zeros((1, 1)), np.array([[*own]], dtype=float)
+    each_break(law, number, parameters, np.empty((1, 0)))
     out = np.empty((1, int(number[0, 0])))
-    each_break(body.law, number, parameters, out)
+    each_break(law, number, parameters, out)
     return out[0]

@@ -23,19 +23,16 @@ cycle, and the bodies ratchet along each other although |Q| < f P.
 All loads are divided by E*.  Time lies along the last axis, which constants keep with length one.
 """
 
-from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import numbers_of, shape_of, solved
+from ..arrays import solved
 from ..body import Body
-from ..chunks import any_lazy, over_chunks
 from ..cycle import Own, stick_zones
 from ..forward import UNIT, each_contact
 from ..slip.zone import each_zone_of_regime
-from ..types import Array, Contact, Edges, March, Regime, Values
-from .refine import steady_cycle
+from ..types import Array, Contact, Edges, March, Regime
 
 LOADS = ("P", "M", "Q", "sigma")
 """The loads of a history, in the order of their rows."""
@@ -48,9 +45,6 @@ PHASE_RTOL = 1e-6
 
 LOAD_RTOL = 1e-12
 """Loads whose relative change is below this are constant."""
-
-ROUGH_TOL = 1e-2
-"""Tolerance of the steady cycle that tells whether a zone can carry the shear load."""
 
 
 class _Way(NamedTuple):
@@ -69,64 +63,6 @@ class _Way(NamedTuple):
     progress: Array
     start: Array
     returns: Array
-
-
-def march(
-    body: Body,
-    own: Own,
-    P: Values,
-    M: Values,
-    Q: Values,
-    sigma: Values,
-    f: Values,
-    E_star: Values,
-) -> March:
-    """A steady cycle instant by instant."""
-    named = dict(zip(LOADS, (P, M, Q, sigma), strict=True))
-    numbers = numbers_of(named, {"f": f, "E_star": E_star, **own})
-    shape = shape_of(numbers)
-    if any_lazy(numbers.values()):
-        axes = dict.fromkeys(March._fields, "t")
-        lazy: March = over_chunks(partial(march, body), "march", numbers, (own,), axes)
-        return lazy
-    if not shape or shape[-1] < 2:
-        raise ValueError(
-            f"a cycle needs at least two instants along the last axis; got shape {shape}"
-        )
-    held = {name: _held(numbers[name], shape) for name in ("f", *own)}
-    friction = held.pop("f")
-    with np.errstate(all="ignore"):
-        loads = [np.broadcast_to(numbers[name] / numbers["E_star"], shape) for name in LOADS]
-        states, cycles, regimes = in_phase(body, held, friction, np.stack(loads), False)
-        limited = np.isin(regimes, (Regime.LARGE, Regime.FULL_STICK))
-        for case in map(tuple, np.argwhere(limited)):
-            cycle = cycles[:, *case]
-            if is_limited(regimes[case], cycle):
-                here = {name: v[case][0] for name, v in held.items()}
-                found = steady_cycle(body, here, friction[case][0], cycle, np.zeros(0), ROUGH_TOL)
-                if found.regime == Regime.NO_STICK:
-                    _ratchets(states, case)
-        return states
-
-
-def _ratchets(states: Any, case: tuple[int, ...]) -> None:
-    """Enter that a cycle has no stick zone."""
-    states.m[case] = states.n[case] = np.nan
-    states.left[case] = states.right[case] = 0
-    states.regime[case] = Regime.NO_STICK
-
-
-def _held(value: Any, shape: tuple[int, ...]) -> Any:
-    """The values of a constant, one per cycle, along an axis of length one.
-
-    Raises ValueError if the constant changes with time.
-    """
-    held = np.broadcast_to(value, shape)
-    if np.any((held != held[..., :1]) & ~np.isnan(held)):
-        raise ValueError(
-            "f, E_star and the body's parameters must not change along the last axis, which is time"
-        )
-    return held[..., :1]
 
 
 def in_phase(body: Body, own: Own, f: Array, loads: Array, mixed: bool) -> tuple[Any, Array, Array]:

@@ -12,11 +12,10 @@ from ..arrays import Numbers, numbers_of, shape_of
 from ..body import Body
 from ..chunks import any_lazy, over_chunks
 from ..cycle import Own, contact, slip_range
-from ..types import Array, History, Regime, SteadyCycle, StickZone, Values
+from ..types import Array, History, March, Regime, SteadyCycle, StickZone, Values
 from . import refine
 from .loops import stick_zone_of_loop
 from .march import LOADS, in_phase, is_limited
-from .march import march as march
 from .reversals import exact_history
 
 _INSTANTS = {name: "t" for name in History._fields} | {"q": "t,p", "slip": "t,p"}
@@ -26,8 +25,45 @@ _CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": 
 WHOLE = ("intervals", "regime", "rounds")
 """Results that are integers."""
 
+ROUGH_TOL = 1e-2
+"""Tolerance of the steady cycle that tells whether a zone can carry the shear load."""
+
 MIXED_ERROR = 1e-7
 """Error of a zone from stick_zone with mixed=True, relative to the contact width."""
+
+
+def march(
+    body: Body,
+    own: Own,
+    P: Values,
+    M: Values,
+    Q: Values,
+    sigma: Values,
+    f: Values,
+    E_star: Values,
+) -> March:
+    """A steady cycle instant by instant."""
+    numbers = _numbers(own, (P, M, Q, sigma), f, E_star, least=2)
+    if any_lazy(numbers.values()):
+        axes = dict.fromkeys(March._fields, "t")
+        lazy: March = over_chunks(partial(march, body), "march", numbers, (own,), axes)
+        return lazy
+    states, cycles, regimes = _in_phase(body, tuple(own), numbers, False)
+    constants = np.broadcast_arrays(*(numbers[name] for name in ("f", *own)), states.regime)[:-1]
+    limited = np.isin(regimes, (Regime.LARGE, Regime.FULL_STICK))
+    for case in map(tuple, np.argwhere(limited)):
+        if is_limited(regimes[case], cycles[:, *case]):
+            friction, *parameters = (value[case][0] for value in constants)
+            here = dict(zip(own, parameters, strict=True))
+            with np.errstate(all="ignore"):
+                found = refine.steady_cycle(
+                    body, here, friction, cycles[:, *case], np.zeros(0), ROUGH_TOL
+                )
+            if found.regime == Regime.NO_STICK:
+                states.m[case] = states.n[case] = np.nan
+                states.left[case] = states.right[case] = 0
+                states.regime[case] = Regime.NO_STICK
+    return states
 
 
 def history(
@@ -43,7 +79,8 @@ def history(
     tol: float,
 ) -> History:
     """Stick zone, shear traction, slip and work at each instant of any load history."""
-    numbers = _numbers(own, (P, M, Q, sigma), f, E_star, x, tol)
+    _demand(x, tol)
+    numbers = _numbers(own, (P, M, Q, sigma), f, E_star)
     if any_lazy(numbers.values()):
         call = partial(history, body, x=x, tol=tol)
         lazy: History = over_chunks(
@@ -67,7 +104,8 @@ def steady_cycle(
     tol: float,
 ) -> SteadyCycle:
     """The steady cycle to which a closed load history settles."""
-    numbers = _numbers(own, (P, M, Q, sigma), f, E_star, x, tol)
+    _demand(x, tol)
+    numbers = _numbers(own, (P, M, Q, sigma), f, E_star)
     if any_lazy(numbers.values()):
         call = partial(steady_cycle, body, x=x, tol=tol)
         lazy: SteadyCycle = over_chunks(
@@ -95,26 +133,33 @@ def _closed(loads: list[Any]) -> list[Any]:
     return [np.concatenate([v, v[..., :1]], axis=-1) for v in full]
 
 
-def _numbers(
-    own: Own, loads: tuple[Values, ...], f: Values, E_star: Values, x: Values | None, tol: float
-) -> Numbers:
-    """The arguments that broadcast, by name.
-
-    Raises TypeError if an argument is not a real number or x is a Dask array, and ValueError if the
-    tolerance is not positive, there is no instant, or a constant changes with time.
-    """
+def _demand(x: Values | None, tol: float) -> None:
+    """Raise TypeError if tol is not a number or x is a Dask array, ValueError if tol is not
+    positive."""
     if isinstance(tol, bool) or not isinstance(tol, int | float | np.number):
         raise TypeError(f"tol must be a number; got {tol!r:.60}")
     if not 0 < tol < math.inf:
         raise ValueError(f"tol must be positive and finite; got {tol!r:.60}")
     if any_lazy([x]):
         raise TypeError("x must be a number or a NumPy array, not a Dask array: pass x.compute()")
+
+
+def _numbers(
+    own: Own, loads: tuple[Values, ...], f: Values, E_star: Values, least: int = 1
+) -> Numbers:
+    """The arguments that broadcast, by name.
+
+    Raises TypeError if an argument is not a real number, and ValueError if there are too few
+    instants or a constant changes with time.
+    """
     named = dict(zip(LOADS, loads, strict=True))
     numbers = numbers_of(named, {"f": f, "E_star": E_star, **own})
-    if 0 in shape_of(numbers)[-1:]:
-        raise ValueError("the last axis is time and must contain at least one instant; it is empty")
     if any_lazy(numbers.values()):
         return numbers
+    shape = shape_of(numbers) or (1,)
+    if shape[-1] < least:
+        wanted = ("one instant", "two instants")[least - 1]
+        raise ValueError(f"the last axis is time and must contain at least {wanted}; got {shape}")
     for name in ("f", "E_star", *own):
         value = np.atleast_1d(numbers[name])
         if np.any((value != value[..., :1]) & ~np.isnan(value)):
@@ -230,21 +275,26 @@ def _exact_range(body: Body, own: Own, f: float, loads: Array, x: Array) -> Arra
     return slip_range(body, own, x, here, here, dQ, dsigma, f, 1.0)
 
 
-def _exact(body: Body, own: tuple[str, ...], numbers: Numbers) -> StickZone:
-    """Exact stick zones; NaN for cycles without an exact solution."""
+def _in_phase(body: Body, own: tuple[str, ...], numbers: Numbers, mixed: bool) -> Any:
+    """What in_phase finds for arguments by name."""
     shape = shape_of(numbers)
     full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
     loads = np.stack([full[name] / full["E_star"] for name in LOADS])
-    once = {name: full[name][..., :1] for name in own}
+    held = {name: full[name][..., :1] for name in own}
     with np.errstate(all="ignore"):
-        states, *_ = in_phase(body, once, full["f"][..., :1], loads, True)
+        return in_phase(body, held, full["f"][..., :1], loads, mixed)
+
+
+def _exact(body: Body, own: tuple[str, ...], numbers: Numbers) -> StickZone:
+    """Exact stick zones; NaN for cycles without an exact solution."""
+    states, *_ = _in_phase(body, own, numbers, True)
     code = np.asarray(states.regime[..., 0])
     known = np.all(states.regime == code[..., None], axis=-1)
     m, n = (np.where(known, np.fmin.reduce(v, axis=-1), np.nan) for v in states[2:4])
     rest = np.isnan(m)
     if np.any(rest):
-        given = {name: full[name][rest] for name in (*LOADS, "f", "E_star")}
-        held = {name: full[name][rest] for name in own}
+        given = {name: np.broadcast_to(v, states.m.shape)[rest] for name, v in numbers.items()}
+        held = {name: given.pop(name) for name in own}
         m[rest], n[rest], _ = stick_zone_of_loop(body, held, **given)
         code = np.where(rest & np.isfinite(m), Regime.MODERATE, code)
     return StickZone(m, n, code)

@@ -87,7 +87,7 @@ def _elements(body: Body, own: Own, way: Path, coarse: Any, count: int) -> Eleme
     at = way.instant >= 0
     stick_ends = np.empty(0) if coarse is None else np.append(-coarse.result.m, coarse.result.n)
     low, high = -np.nanmax(way.a), np.nanmax(way.c)
-    breaks = breaks_of(body, own)
+    breaks = breaks_of(body.law, own.values())
     points = np.concatenate([[low, high], breaks, -way.a[at], way.c[at], stick_ends])
     rests = np.flatnonzero((np.diff(way.a) == 0) & (np.diff(way.c) == 0))
     fixed = np.unique(np.concatenate([breaks, -way.a[rests], way.c[rests]]))
@@ -210,12 +210,13 @@ def _cycle_on(
     least = int(np.argmax(way.instant == 0))  # the first steps apply the loads of the first instant
     mesh = _elements(body, own, way, coarse, count)
     interface, always = Interface(body, own, f, way, mesh), np.ones(count, dtype=bool)
-    before, drift, nan = np.zeros(count), math.inf, math.nan
+    before, drift, nan, statuses = np.zeros(count), math.inf, math.nan, dict[int, Array]()
     for rounds in range(MAX_ROUNDS + 1):
         total, slip, low, high = np.zeros((4, count))
         work = 0.0
         for row in range(1, least + 1) if rounds == 0 else range(least + 1, way.a.size):
-            regime = interface.step(row)
+            regime = interface.step(row, statuses.get(row))
+            statuses[row] = interface.status.astype(np.int8)
             if regime not in (Regime.COMPUTED, Regime.FULL_STICK):
                 none = np.full(x.size, nan)
                 lost = SteadyCycle(nan, nan, regime, none, none, nan, 0, nan, nan)

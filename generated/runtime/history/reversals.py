@@ -155,7 +155,7 @@ def exact_history(body: Body, own: Own, f: float, loads: Array, x: Array) -> His
     out = np.empty((D.size, 1 + x.size))
     each_branch(body.law, given, x[None].copy(), np.array([[*own.values()]], dtype=float), out)
     # at a corner the pressure is infinite, but its change is not: take it close by
-    corner = np.isin(x, breaks_of(body, own)) & (x > -m[:, None]) & (x < n[:, None])
+    corner = np.isin(x, breaks_of(body.law, own.values())) & (x > -m[:, None]) & (x < n[:, None])
     places = np.where(corner, x + 1e-12 * (a + c), x)
     before = pressure(body, own, places, a, c, 1.0)
     change = 2 * f * (before - pressure(body, own, places, m[:, None], n[:, None], 1.0))

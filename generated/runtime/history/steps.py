@@ -12,6 +12,7 @@ differences add up to zero over all elements, because f P varies linearly.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -72,8 +73,12 @@ class Interface:
         part = np.clip(np.fmin(left, right), 0.0, 1.0)
         self._parts = np.where((moves & np.any(always, axis=1))[:, None], part, 1.0)
 
-    def step(self, row: int) -> Regime:
-        """Take the step to a row of the path."""
+    def step(self, row: int, guess: Any = None) -> Regime:
+        """Take the step to a row of the path, from a guess of the status after it if there is one.
+
+        Otherwise the guess is the status before it; where contact begins the surfaces slip like
+        those beside it.
+        """
         if not self._first < row < self._first + len(self._bounds):
             self._prepare(row - 1)
         path, before, w, k = self.path, self.bound, self.mesh.widths, row - self._first
@@ -96,8 +101,7 @@ class Interface:
             return Regime.COMPUTED if np.any(self.status) else Regime.FULL_STICK
         trial = self.shear if math.isnan(path.a[row - 1]) else self.shear + self._changes[k]
         trial = trial + (Q - w @ trial) * self.mesh.rise
-        # a first guess: where contact begins the surfaces slip like those beside it
-        guess = self.status[self._beside[k - 1]]
+        guess = self.status[self._beside[k - 1]] if guess is None else guess
         found = self._solver.nearest(trial, self.bound, guess)
         if found is None:
             return Regime.UNSOLVED

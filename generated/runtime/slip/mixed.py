@@ -36,7 +36,7 @@ the gain is subtracted.  All functions of position take arrays.
 """
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -45,17 +45,12 @@ from numpy.polynomial.chebyshev import Chebyshev, chebpts1, chebvander
 from numpy.polynomial.legendre import leggauss
 from scipy.optimize import brentq, root
 
-from ..arrays import solved
-from ..body import Body
-from ..cycle import Own, pressure
-from ..forward import UNIT, breaks_of
-from ..kernels import kernel, loop, opened, shared
-from ..types import Array, Edges, Regime, StickZone
-from .bounded import change_between, integrals, slipping
-from .cycles import Cycle, turning_width
+from ..forward import breaks_of, each_pressure
+from ..types import Array, Regime
+from .cycles import turning_width
 from .growth import FRICTION_RTOL
-from .quadrature import ROUGH, SlipZone, cut_rule, double_exponential, limit
-from .zone import each_zone_of_regime
+from .quadrature import SlipZone, double_exponential
+from .zone import each_zone, each_zone_of_regime
 
 TERMS = range(16, 65, 4)
 """Numbers of terms of the series in successive iterations; three to six iterations are common."""
@@ -65,10 +60,8 @@ ZONE_RTOL = 1e-7
 width; most iterations reduce the error by more than a factor of ten."""
 
 MAX_STRIP = 1e-4
-"""Width of the strip beyond the moderate zone in which the moderate solution stands in for series
-that fail, as (a + n - H)/(a + c).  It is off by less than the square of this."""
-
-NO_GAIN = np.array([0.0, -math.inf, 0.0, 0.0, 0.0])
+"""Width of the strip beyond the moderate zone in which the moderate solution holds, as
+(a + n - H)/(a + c).  There n departs from it by about the square of this, and m far less."""
 
 _RULE = double_exponential(1 / 6)
 _GAUSS = np.array(leggauss(64)) / 2 + [[0.5], [0.0]]
@@ -80,92 +73,53 @@ Place = Callable[[Array], Array]
 # ---------------------------------------------------------------- slip that grows
 
 
-def _gain(
-    gained: Place, start: float, end: float, count: int, near: float = 0.0, rubs: bool = False
-) -> Array:
-    """The shear gained since points began to stick again, as a series between `start` and `end`.
-
-    It is a row of start, end, near, rubs and the coefficients of the series.
-
-    near = 0: analytic in the square roots of the distances from both ends
-    near > 0: analytic in sqrt(y) and sqrt(y + near), y = x - start
-    rubs:     whether points beyond `end` are at the friction limit, where the gain is 2 f p;
-              otherwise nothing was gained there
-    """
-
-    def values(s: Array) -> Array:
-        if near > 0:
-            return gained(
-                start + near * np.sinh(np.arcsinh(np.sqrt((end - start) / near)) * s) ** 2
-            )
-        return gained(start + (end - start) * np.sin(np.pi / 2 * s) ** 2)
-
-    series = Chebyshev.interpolate(values, count - 1, domain=(0, 1))
-    return np.array([start, end, near, rubs, *series.coef])
+def _change_by(zone: SlipZone, near: Array, far: Array) -> Array:
+    """dq due to r in a slip zone (bounded.py), at given distances from this end of the stick zone
+    and the other one."""
+    y, stuck = zone.y, near + far
+    singular = np.sqrt(y * (y + stuck[:, None])) * (y + near[:, None])
+    total = np.sum(zone.weight * (zone.r - zone.at_start) / singular, axis=1)
+    angle = np.arctan2(np.sqrt(zone.length * far), np.sqrt(near * (zone.length + stuck)))
+    return (np.sqrt(near * far) * total + 2 * zone.at_start * angle) / math.pi
 
 
-@shared
-def _gain_at(gain: Array, x: Array) -> Array:
-    """The gain at x up to its end; before its start, that at the start."""
-    length, near = gain[1] - gain[0], gain[2]
-    y = np.minimum(np.maximum(x - gain[0], 0.0), length)
-    if near > 0:
-        s = np.arcsinh(np.sqrt(y / near)) / np.arcsinh(np.sqrt(length / near))
-    else:
-        s = 2 / np.pi * np.arcsin(np.sqrt(y / length))
-    t, last = 4 * s - 2, 0 * s
-    before = last
-    for k in range(gain.size - 1, 4, -1):
-        last, before = t * last - before + gain[k], last
-    return t / 2 * last - before + gain[4]
+class _Slip(NamedTuple):
+    """Slip beside [-m, n]: forward on the left, and in the direction lamda on the right."""
 
+    m: float
+    n: float
+    lamda: float
+    left: SlipZone
+    right: SlipZone
 
-@kernel
-def _zone(law: Any, own: Any, row: Any, side: float, gain: Any) -> SlipZone:
-    """The slip zone on one side, where slip leaves 2 f p less the gain."""
-    f, sense, a, c, m, n, edge, _ = row
-    start, length = (m, edge - m) if side < 0 else (n, c - n)
-    cuts = np.append(sense * law.breaks(own), gain[:2]) * side - start
-    y, weight = cut_rule(length, cuts, ROUGH)
-    a, c = (a, c) if sense > 0 else (c, a)
-    cycle, r = Cycle(a, c, a, c, 0.0, 0.0, f), np.empty(y.size + 1)
-    for i in range(r.size):
-        x = side * (start + (y[i] if i < y.size else 0.0))
-        r[i] = limit(law, own, cycle, sense * x)
-        if x < gain[1]:
-            r[i] -= _gain_at(gain, x)
-        elif gain[3] > 0:
-            r[i] = 0.0
-    return SlipZone(y, weight, r[:-1], length, r[-1])
+    def integrals(self) -> Array:
+        """L and R."""
+        total = np.zeros(2)
+        for zone, kappa, way in ((self.left, 1.0, 1), (self.right, self.lamda, -1)):
+            u = np.sqrt(zone.y / (self.m + self.n + zone.y))
+            total += kappa * np.sum(zone.weight * zone.r * [1 / u, u], axis=1)[::way]
+        return total
 
-
-@loop
-def each_change(
-    law: Any, given: Any, left: Any, right: Any, points: Any, own: Any, out: Any
-) -> None:
-    """f, sense, a, c, m, n, edge on the left, lamda -> L, R, then dq at points that stick."""
-    law, row = opened(law), given[0]
-    f, _, a, c, m, n, _, lamda = row
-    at_left = _zone(law, own[0], row, -1.0, left[0])
-    at_right = _zone(law, own[0], row, 1.0, right[0])
-    near, far, _, _ = integrals(at_left, m + n)
-    near_2, far_2, _, _ = integrals(at_right, m + n)
-    out[0, 0], out[0, 1] = near + lamda * far_2, far + lamda * near_2
-    of = slipping(Cycle(a, c, a, c, 0.0, 0.0, f), 1.0, lamda)
-    for i in range(points.shape[1]):
-        out[0, i + 2] = change_between(of, at_left, at_right, m, n, points[0, i])
+    def change(self, x: Array) -> Array:
+        """dq at x; if rounding puts x outside the stick zone, dq at its end."""
+        from_left, from_right = np.maximum(x + self.m, 0.0), np.maximum(self.n - x, 0.0)
+        by_right = _change_by(self.right, from_right, from_left)
+        return _change_by(self.left, from_left, from_right) + self.lamda * by_right
 
 
 class _HalfCycle(NamedTuple):
     """A half-cycle with dsigma > 0, or the mirror image of one.
 
-    a, c   edges of the contact, or of its mirror image, which has sense -1
+    law    of the body
+    own    the body's parameters, in one row
+    sense  -1 for a mirror image
+    a, c   edges of the contact, or of its mirror image
     cuts   breaks of the body
     H      the width of a stick zone whose right end is not driven
     """
 
-    body: Body
-    own: Own
+    law: Any
+    own: Array
     f: float
     sense: float
     a: float
@@ -177,20 +131,29 @@ class _HalfCycle(NamedTuple):
 
     def limit(self, x: Array) -> Array:
         """2 f p; zero at a corner."""
-        a, c = (self.a, self.c) if self.sense > 0 else (self.c, self.a)
-        p = pressure(self.body, self.own, self.sense * x, a, c, 1.0)
-        return np.where(p < math.inf, 2 * self.f * p, 0.0)
+        given, p = np.ones((x.size, 4)), np.empty((x.size, 1))
+        given[:, 0] = self.sense * x
+        given[:, 1:3] = (self.a, self.c) if self.sense > 0 else (self.c, self.a)
+        each_pressure(self.law, given, np.repeat(self.own, x.size, axis=0), p)
+        return np.where(p < math.inf, 2 * self.f * p, 0.0)[:, 0]
 
-    def slipped(self, zone: tuple[float, ...], gains: tuple[Array, Array], x: Array) -> Array:
-        """L and R of the slip zones from -m to an edge and from n to c, then dq at x.
+    def slip(
+        self, m: float, n: float, edge: float, lamda: float, rest: tuple[Place, Place], cut: float
+    ) -> _Slip:
+        """The slip from -m to the edge on the left, and from n to c.
 
-        zone: m, n, the edge on the left, and lamda
+        rest  the shear that slip leaves on the left and on the right, 2 f p less what was gained
+        cut   where that on the right is not smooth
         """
-        own, row = np.array([[*self.own.values()]]), np.array([[*self[2:6], *zone]])
-        points, tables = np.reshape(x, (1, -1)), [gain[None] for gain in gains]
-        out = np.empty((1, 2 + points.size))
-        each_change(self.body.law, row, *tables, points, own, out)  # type: ignore[call-arg]
-        return out[0]
+        zones = []
+        for side, start, length, left in ((-1, m, edge - m, rest[0]), (1, n, self.c - n, rest[1])):
+            cuts = side * np.append(self.cuts, cut) - start
+            ends = np.unique([0.0, *cuts[(cuts > 0) & (cuts < length)], length])
+            widths = np.diff(ends)[:, None]
+            y = np.append(ends[:-1, None] + widths * _RULE[0], 0.0)
+            r = left(side * (start + y))
+            zones.append(SlipZone(y[:-1], np.ravel(widths * _RULE[1]), r[:-1], length, r[-1]))
+        return _Slip(m, n, lamda, *zones)
 
 
 class _Leg(NamedTuple):
@@ -219,37 +182,41 @@ class _Leg(NamedTuple):
 class _State(NamedTuple):
     """What a half-cycle passes on to the next.
 
-    m, n         the permanent stick zone; NaN unless the half-cycle has these phases
-    gain         the gain on the right
-    ratios       slip zones of phase 3 over the stick zone, a first guess for the next one
+    m, n   the permanent stick zone
+    end    points from n to `end` have stuck again
+    rubs   whether points beyond `end` are at the friction limit, where 2 f p was gained; otherwise
+           nothing was gained there
+    rest   2 f p less the shear gained since points began to stick again
     """
 
-    m: float = math.nan
-    n: float = math.nan
-    gain: Array = NO_GAIN
-    ratios: tuple[float, float] = (0.0, 0.0)
+    m: float
+    n: float
+    end: float
+    rubs: bool
+    rest: Place
 
 
 # ---------------------------------------------------------------- the three phases
 
 
-def _phase_1(of: _HalfCycle, begun: _State) -> tuple[float, float, float, Place]:
-    """m, n, lambda and dq when m + n = H; the search begins next to the last n."""
-    gains = NO_GAIN, begun.gain
+def _phase_1(of: _HalfCycle, begun: _State) -> tuple[float, _Slip]:
+    """lambda and the slip when m + n = H; the search begins next to the last n.
 
-    def off(n: float) -> Any:
-        return of.slipped((of.H - n, n, of.a, -1.0), gains, ())[1]
+    lambda is NaN if no such zone is found.
+    """
+
+    def slip(n: float) -> _Slip:
+        return of.slip(of.H - n, n, of.a, -1.0, (of.limit, begun.rest), begun.end)
+
+    def off(n: float) -> float:
+        return float(slip(n).integrals()[1])
 
     least, most, near = of.H - of.a + 1e-12 * of.H, of.c - 1e-12 * of.H, 1e-3 * of.H
     for low, high in ((max(least, begun.n - near), min(most, begun.n + near)), (least, most)):
         if off(low) < 0 < off(high):
-            break
-    else:
-        return math.nan, math.nan, math.nan, of.limit
-    n = brentq(off, low, high, xtol=1e-12 * of.H)
-    zone = of.H - n, n, of.a, -1.0
-    part = of.slipped(zone, gains, ())[0] / (2 * of.dQ)
-    return of.H - n, n, part, lambda x: of.slipped(zone, gains, x)[2:]
+            found = slip(brentq(off, low, high, xtol=1e-12 * of.H))
+            return found.integrals()[0] / (2 * of.dQ), found
+    return math.nan, slip(least)
 
 
 def _gained(of: _HalfCycle, legs: list[_Leg], x: Array) -> Array:
@@ -285,160 +252,151 @@ def _next_leg(
     return _Leg(top, span, Chebyshev(np.linalg.solve(matrix, right), domain=(0, 1)))
 
 
-def _phase_2(
-    of: _HalfCycle, dq: Place, m: float, part: float, middle: float, count: int
-) -> tuple[list[_Leg], float]:
+def _phase_2(of: _HalfCycle, first: _Slip, part: float, count: int) -> tuple[list[_Leg], float]:
     """The legs until all of the right edge sticks or the half-cycle ends, and lambda then.
 
-    A new leg begins at each break, because Lambda has a square root before it.  No legs if m passes
-    `middle`.
+    A new leg begins at each break, because Lambda has a square root before it.  No legs if the zone
+    that never slips gets narrower than H/16.
     """
-    sticks_all_right, legs = of.H - of.c, list[_Leg]()
-    least = max(sticks_all_right, -middle)
+    legs, m, sticks_all_right = list[_Leg](), first.m, of.H - of.c
+    least = max(sticks_all_right, of.H / 16 - first.n)
     while m > least:
         bottom = max([least, *(-at for at in of.cuts if least < -at < m)])
-        leg = _next_leg(of, dq, legs, m, m - bottom, count)
+        leg = _next_leg(of, first.change, legs, m, m - bottom, count)
         at_end = part + leg.elapsed(1.0)
         if at_end >= 1:
             end = brentq(lambda s, leg, part: part + leg.elapsed(s) - 1, 0.0, 1.0, (leg, part))
             return [*legs, leg._replace(end=end)], 1.0
         legs, m, part = [*legs, leg], leg.bottom, at_end
-    whole = sticks_all_right >= -middle and part < 1
-    return (legs, part) if whole else ([], math.nan)
+    return (legs, part) if least == sticks_all_right else ([], part)
 
 
 def _phase_3(
-    of: _HalfCycle, m: float, part: float, gains: tuple[Array, Array], begun: _State
-) -> tuple[float, float, Place]:
-    """The slip zones in the contact [-m, c], whose width is H, and dq.
+    of: _HalfCycle, m: float, part: float, rest: tuple[Place, Place], cut: float, begun: _State
+) -> _Slip | None:
+    """The slip in the contact [-m, c], whose width is H.
 
-    The unknowns are the logarithms of the ratios of both slip zones to the stick zone.  The first
-    guess takes the remaining friction at both edges as square roots.  At the start of phase 3 the
-    left edge is driven by 2 dQ and the right one not at all; later the right one is driven in
-    proportion to the loss of width of the stick zone.
+    The unknowns are the logarithms of the ratios of both slip zones to the stick zone.  At the
+    start of phase 3 the left edge is driven by 2 dQ and the right one not at all; later the right
+    one is driven in proportion to the loss of width of the stick zone.
     """
     dQ, growth = part * of.dQ, np.pi * part * of.dsigma / 8
-    first, least = begun.ratios, 1e-9
-    if not first[0] > 0:
-        x = np.array([1e-4 * of.H - m, of.c - 1e-4 * of.H])
-        rest = 50 * np.pi * (of.limit(x) - [_gain_at(*v) for v in zip(gains, x, strict=True)])
-        left = min(2 * dQ / of.H / max(rest[0], least * dQ / of.H), 0.25)
-        first = left, min(max(growth * left / max(rest[1] - growth, least * growth), least), 0.25)
+    last = np.array([m - begun.m, of.c - begun.end]) / (begun.m + begun.end)
 
-    def lengths(logarithms: Array) -> Array:
+    def slip(logarithms: Array) -> _Slip:
         ratios = np.exp(logarithms)
-        return of.H * ratios / (1 + np.sum(ratios))
+        left, right = of.H * ratios / (1 + np.sum(ratios))
+        return of.slip(m - left, of.c - right, m, 1.0, rest, cut)
 
     def off(logarithms: Array) -> Array:
-        left, right = lengths(logarithms)
-        stuck = of.H - left - right
-        L, R = of.slipped((m - left, of.c - right, m, 1.0), gains, ())
-        return np.array([L - dQ - stuck * growth, R - dQ + stuck * growth]) / dQ
+        found = slip(logarithms)
+        growing = (found.m + found.n) * growth
+        return (found.integrals() - dQ - [growing, -growing]) / dQ
 
-    for method in ("hybr", "lm"):
-        found = root(off, np.log(first), method=method, tol=1e-12)
-        if np.max(np.abs(found.fun)) < 1e-9:
-            break
-    else:
-        return math.nan, math.nan, of.limit
-    left, right = lengths(found.x)
-    zone = m - left, of.c - right, m, 1.0
-    return left, right, lambda x: of.slipped(zone, gains, x)[2:]
+    found = root(off, np.log(np.where(last > 1e-9, last, 0.1)), method="lm", tol=1e-12)
+    return slip(found.x) if np.max(np.abs(found.fun)) < 1e-9 else None
 
 
-def _half_cycle(of: _HalfCycle, middle: float, begun: _State, count: int) -> _State:
-    """The zone and the gain at the end of a half-cycle, by series with `count` terms."""
-    nothing, s = _State(gain=begun.gain), (chebpts1(count) + 1) / 2
-    m_1, n_1, part, dq_1 = _phase_1(of, begun)
-    if not (0 < part < 1 and -m_1 < middle < n_1 and m_1 <= of.a):
-        return nothing
-    legs, part = _phase_2(of, dq_1, m_1, part, middle, count)
+def _tabulated(values: Place, start: float, end: float, count: int) -> Place:
+    """A function as a series, analytic in the square roots of the distances from both ends."""
+    length = end - start
+    series = Chebyshev.interpolate(
+        lambda s: values(start + length * np.sin(np.pi / 2 * s) ** 2), count - 1, domain=(0, 1)
+    )
+    return lambda x: series(2 / np.pi * np.arcsin(np.sqrt(np.clip((x - start) / length, 0, 1))))
+
+
+def _half_cycle(of: _HalfCycle, begun: _State, count: int) -> _State | None:
+    """The state at the end of a half-cycle, by series with `count` terms; None if it does not have
+    these phases."""
+    part, first = _phase_1(of, begun)
+    if not 0 < part < 1:
+        return None
+    legs, part = _phase_2(of, first, part, count)
+    s = (chebpts1(count) + 1) / 2
     if not legs or min(np.min(leg.rate(leg.end * s)) for leg in legs) < 0:
-        return nothing
-    m, gained = legs[-1].bottom, partial(_gained, of, legs)
-    gain = _gain(gained, n_1, min(of.H - m, of.c), count)
-    if part == 1:
-        return _State(m, n_1, gain)
+        return None
+    m, n = legs[-1].bottom, first.n
+    end = min(of.H - m, of.c)
+    gain = _tabulated(partial(_gained, of, legs), n, end, count)
 
-    middle_right = (middle + n_1) / 2
-    gain_left = _gain(lambda x: gained(x) + dq_1(x), -m, middle_right, count, near=m_1 - m)
-    left, right, dq_3 = _phase_3(of, m, 1 - part, (gain_left, gain), begun)
-    n = of.c - right
-    if not (left < m + middle_right and left - m < middle < n):
-        return nothing
-    start = n_1 if n > n_1 else 2 * n - of.c
-    at_end = _gain(lambda x: _gain_at(gain, x) + dq_3(x), start, n, count, rubs=True)
-    stuck = of.H - left - right
-    return _State(m - left, n_1, at_end, (left / stuck, right / stuck))
+    def right(x: Array) -> Array:
+        return of.limit(x) - np.where(x < end, gain(x), 0.0)
+
+    if part == 1:
+        return _State(m, n, end, False, right)
+
+    def left(x: Array) -> Array:
+        x = np.maximum(x, -m)
+        return of.limit(x) - _gained(of, legs, x) - first.change(x)
+
+    third = _phase_3(of, m, 1 - part, (left, right), n, begun)
+    if third is None or third.m + n < 0:
+        return None
+    start = n if n < third.n else 2 * third.n - of.c
+    at_end = _tabulated(lambda x: gain(x) + third.change(x), start, third.n, count)
+
+    def rest(x: Array) -> Array:
+        return np.where(x < third.n, of.limit(x) - at_end(x), 0.0)
+
+    return _State(third.m, n, third.n, True, rest)
 
 
 def _is_sound(of: _HalfCycle, state: _State, count: int) -> bool:
     """Whether the shear traction stays within the friction limit where points stick again, and is
     not driven further where it is at that limit."""
-    end, _, rubs = state.gain[1:4]
-    if not state.n < end <= of.c:
+    if not state.n < state.end <= of.c:
         return False
     turns = (of.c - of.a) / 2 + of.H / 2
-    last = of.c if rubs else end
+    last = of.c if state.rubs else state.end
     at_points = np.sin(np.pi / 4 * (chebpts1(count) + 1)) ** 2  # where the series is exact
-    x = state.n + (end - state.n) * at_points
-    limit, gained = of.limit(x), _gain_at(state.gain, x)
-    excess = np.max(np.maximum(-gained, gained - limit))
+    x = state.n + (state.end - state.n) * at_points
+    limit, rest = of.limit(x), state.rest(x)
+    excess = np.max(np.maximum(-rest, rest - limit))
     return bool(-state.m <= turns <= last and excess <= FRICTION_RTOL * np.max(limit))
 
 
-def _by_phases(of: _HalfCycle) -> tuple[float, float]:
-    """m and n of a half-cycle; NaN unless it has the phases and the iteration converges."""
-    state = _State()
-    m_1, n_1, _, _ = _phase_1(of, state)
-    middle = n_1 - (m_1 + n_1) / 4
+def _by_phases(of: _HalfCycle, m: float, n: float) -> tuple[float, float]:
+    """m and n of a half-cycle; NaN unless it has the phases and the iteration converges.
+
+    m, n: a first guess
+    """
+    last = _State(m, n, n, False, of.limit)
     for count in TERMS:
-        last, state = state, _half_cycle(of, middle, state, count)
+        state = _half_cycle(of, last, count)
+        if state is None:
+            break
         if max(abs(state.m - last.m), abs(state.n - last.n)) <= ZONE_RTOL * (of.a + of.c):
             return (state.m, state.n) if _is_sound(of, state, count) else (math.nan, math.nan)
+        last = state
     return math.nan, math.nan
 
 
-def _mixed_zone(
-    body: Body, own: Own, a: float, c: float, dQ: float, dsigma: float, f: float
-) -> tuple[float, float]:
+def _mixed_zone(law: Any, cycle: Array, own: Array) -> tuple[float, float]:
     """m and n of a cycle of constant loads in which slip reverses; NaN if they are not found.
 
-    Just beyond the end of the moderate zone, series may fail.  There n departs from the moderate
-    solution as the square of (a + n - H)/(a + c), and m departs far less.
+    cycle: a_1, c_1, a_2, c_2, dQ, dsigma, f, E*
     """
+    a, c, _, _, dQ, dsigma, f, E_star = cycle
+    dQ, dsigma = dQ / E_star, dsigma / E_star
     if not (dQ > 0 and dsigma != 0):
         return math.nan, math.nan
-    sense, H = math.copysign(1.0, dsigma), turning_width(dQ, dsigma)
-    near, far = (a, c) if sense > 0 else (c, a)
-    cuts, loads = sense * breaks_of(body, own), (dQ, abs(dsigma))
-    of = _HalfCycle(body, own, f, sense, near, far, *loads, cuts, H)
-    m, n = _by_phases(of)
-    if math.isnan(m):
-        cycle = {"a_1": a, "c_1": c, "a_2": a, "c_2": c, "dQ": dQ, "dsigma": dsigma}
-        cycle["regime"] = Regime.MODERATE
-        found = solved(each_zone_of_regime, body, cycle, {"f": f, **UNIT}, own, Edges)
-        if 0 < near + found[sense > 0] - H <= MAX_STRIP * (a + c):
-            return found
+    sense, H, moderate = math.copysign(1.0, dsigma), turning_width(dQ, dsigma), np.empty((1, 2))
+    given = np.array([[a, c, a, c, dQ, dsigma, Regime.MODERATE, f, 1.0]])
+    each_zone_of_regime(law, given, own, moderate)
+    (a, c), (m, n) = (pair[:: int(sense)] for pair in ((a, c), moderate[0]))
+    if not 0 < a + n - H <= MAX_STRIP * (a + c):
+        cuts = sense * breaks_of(law, own[0])
+        m, n = _by_phases(_HalfCycle(law, own, f, sense, a, c, dQ, abs(dsigma), cuts, H), m, n)
     return (m, n) if sense > 0 else (n, m)
 
 
-def with_mixed(
-    body: Body, names: Iterable[str], numbers: dict[str, Any], zone: StickZone
-) -> StickZone:
-    """Stick zones, and those of mixed cycles at constant normal loads that are not known yet.
-
-    names: names of the body's parameters
-    numbers: the arguments of stick_zone, by name
-    """
-    m, n, regime = map(np.array, zone)
-    full = {name: np.broadcast_to(value, m.shape) for name, value in numbers.items()}
-    for case in map(tuple, np.argwhere((regime == Regime.MIXED) & np.isnan(m))):
-        here = {name: value[case] for name, value in full.items()}
-        own = {name: here.pop(name) for name in names}
-        a, c, a_2, c_2, dQ, dsigma, f, E_star = here.values()
-        if a == a_2 and c == c_2:
-            with np.errstate(all="ignore"):
-                m[case], n[case] = _mixed_zone(body, own, a, c, dQ / E_star, dsigma / E_star, f)
-            regime[case] = Regime.UNSOLVED if math.isnan(m[case]) else Regime.MIXED
-    return StickZone(m[()], n[()], regime[()])
+def each_mixed_zone(law: Any, given: Array, own: Array, out: Array) -> None:
+    """each_zone, with the zones of mixed cycles at constant normal loads that it does not know."""
+    each_zone(law, given, own, out)
+    steady = np.all(given[:, :2] == given[:, 2:4], axis=1)
+    for i in np.flatnonzero(steady & (out[:, 2] == Regime.MIXED) & np.isnan(out[:, 0])):
+        with np.errstate(all="ignore"):
+            out[i, :2] = _mixed_zone(law, given[i], own[i, None])
+        if math.isnan(out[i, 0]):
+            out[i, 2] = Regime.UNSOLVED
