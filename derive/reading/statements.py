@@ -5,6 +5,7 @@ a < b = c          a < b and b = c
 u, v   u and v     u and v, if each has its own relation; a wide space also divides them
 \pm, \mp           the equation with the upper signs, then with the lower signs
 u for v            u under the condition v; an inequality after an equation is also a condition
+u < v, |x| < a     u < v under the condition |x| < a; other inequalities in a list are statements
 u + O(s^2)         u without the remainder, which is of the order 2 as s -> 0
 
 Nothing that is printed is dropped.  Words that are not understood remain in the statement, which
@@ -110,7 +111,9 @@ def _entries(tokens: Sequence[Token]) -> list[Statement]:
     made = list[Statement]()
     for joint, piece in _pieces(tokens):
         last, kinds = made[-1] if made else Statement([]), _relations(piece)
-        may_have = last.conditions or last.relations - CONDITIONS
+        may_have = bool(last.conditions or last.relations - CONDITIONS)
+        if last.relations == {"ORDER"} and _bounds_position(piece):
+            may_have = not _bounds_position(last.tokens)
         if joint == "WHERE":
             made = made or [Statement([])]
             made[-1].require(piece, joint)
@@ -127,6 +130,12 @@ def _entries(tokens: Sequence[Token]) -> list[Statement]:
                 why = "equivalent statements may both be false: write, as text, the one that holds"
                 made[-1].why = last.why = why
     return made
+
+
+def _bounds_position(tokens: Sequence[Token]) -> bool:
+    """Whether x or |x| is a side of an inequality, such as |x| < a or -a < x < c."""
+    shown = " ".join("<" if each.type == "ORDER" else each.text for each in tokens)
+    return "<" in shown and any(side.strip() in ("x", "| x |") for side in shown.split("<"))
 
 
 def _pieces(tokens: Sequence[Token]) -> Iterator[tuple[str, list[Token]]]:

@@ -79,6 +79,9 @@ y = \lambda_1 \int_0^1 \lambda\,d\lambda :: y = lam_1*integral(lam, lam, 0, 1)
 P = 2\mathrm{K}(k) \int_0^a p\,\mathrm dx :: P = 2*K_at_k*integral(p, x, 0, a)
 a = b = c :: a = b; a = c
 a \leq b = c. :: a <= b; b = c
+a > 0,\quad b > 0 :: a > 0; b > 0
+m < a,\quad n < c :: m < a; n < c
+x > b,\quad x < a :: x > b; x < a
 a = b \quad\text{and}\quad c = d; :: a = b; c = d
 a \pm b = \mp c :: a + b = -c; a - b = c
 a = {b \over c} :: a = b/c
@@ -190,6 +193,8 @@ p \underset{s\to0}{\sim} K\sqrt{s} :: as = 's -> 0'
 {\displaystyle u\approx {\frac {Q}{a}}{\text{ as }}c\to a} :: as = 'c -> a'
 e = \frac{a}{b} + O(a^2) :: as = 'a -> 0', order = 2
 a = b \quad |x| < a :: require = 'abs(x) < a'
+|q| \le f p,\quad |x| < a :: require = 'abs(x) < a'
+q \le f p, \quad -a < x < c :: require = '-a < x < c'
 a = b \text{ for } x > 0 \text{ and } y < 0 :: require = 'x > 0 and y < 0'
 a = b \text{ for } x > 0 \text{ or } x < -1 :: require = 'x > 0 or x < -1'
 a = b \quad\text{for } x > 0, y < 2 :: require = 'x > 0 and y < 2'
