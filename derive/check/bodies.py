@@ -6,10 +6,11 @@ Out:  the ProvenBody, or None for "none".
 """
 
 import ast
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-from sympy import Expr, Symbol, atan, atan2, powsimp
+from sympy import Expr, Mul, S, Symbol, atan, atan2, log, nan, powsimp
 
 from derive.body.geometry import Geometry
 from derive.body.library import is_in_library, library, load_geometry
@@ -135,9 +136,22 @@ def _read(path: Path) -> OwnBody:
     return OwnBody(profiles[0], units)
 
 
-def placed(expr: Expr, table: dict[Symbol, Expr]) -> Expr:
-    """Substitute the arguments of a formula, and write acute angles with atan."""
-    return expr.xreplace(table).replace(atan2, _arc)
+def placed(expr: Expr, table: Mapping[Symbol, Expr]) -> Expr:
+    """Substitute the arguments of a formula, and write acute angles with atan.
+
+    At a kink, the distance to it times its logarithm has the limit zero.
+    """
+    found = expr.xreplace(table)
+    if found.has(nan):
+        products = [each for each in expr.atoms(Mul) if _vanishes(each, table)]
+        found = expr.xreplace(dict.fromkeys(products, S.Zero)).xreplace(table)
+    return found.replace(atan2, _arc)
+
+
+def _vanishes(product: Expr, table: Mapping[Symbol, Expr]) -> bool:
+    """Whether what stands beside a logarithm in a product is zero for these arguments."""
+    beside = [factor for factor in product.args if factor.func != log]
+    return len(beside) < len(product.args) and Mul(*beside).xreplace(table) == 0
 
 
 def _arc(over: Expr, under: Expr) -> Expr:

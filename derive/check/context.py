@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from sympy import Derivative, Expr, Integer, Integral, Limit, Piecewise, Symbol, true
+from sympy import Derivative, Expr, Integer, Integral, Limit, Piecewise, Symbol, expand, true
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
@@ -201,11 +201,17 @@ class Context:
             known = self.sheet[call.func.__name__]  # type: ignore[index]
             table = {**self._renamed, **dict(zip(known.arguments, call.args, strict=True))}
             for condition in known.conditions:
-                yield self.substitute(condition.subs(table, simultaneous=True))
+                if not (condition.has(x) and self._is_an_end(condition, table)):
+                    yield self.substitute(condition.subs(table, simultaneous=True))
         for value in sorted(expr.atoms(PrincipalValue), key=str):
             for over in integrals(self.substitute(value)):
                 if over.limits[-1][0].name.endswith(FROM_POLE):
                     yield over.limits[-1][2] > 0
+
+    def _is_an_end(self, condition: Boolean, table: Mapping[Symbol, Expr]) -> bool:
+        """Whether the position in a call is an end of the contact, up to which a formula holds."""
+        distance = (condition.lhs - condition.rhs).subs(table, simultaneous=True)
+        return bool(expand(self.substitute(distance)) == 0)
 
     # -------------------------------------------------------------- units
 

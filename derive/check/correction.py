@@ -7,7 +7,7 @@ the plainest first, until one of them is true.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import islice
+from itertools import islice, product
 from typing import Any
 
 import mpmath
@@ -128,8 +128,9 @@ def _batches(claim: Claim) -> Iterator[Iterable[Repair]]:
     near_limit = claim.meant.toward is not None
     if has_integral(claim) or near_limit:
         every = list(single)
-        yield (each for each in every if each.change.endswith(WHOLE))
-        in_part = [each for each in every if not each.change.endswith(WHOLE)]
+        first = [each for each in every if each.change.endswith(WHOLE) or each.kind == "limit"]
+        yield [*first, *_names_lost(claim)] if near_limit else first
+        in_part = [each for each in every if each not in first]
         if near_limit:
             yield in_part
             return
@@ -193,6 +194,16 @@ def _scaled(claim: Claim) -> Iterator[Repair]:
         factor = constant * ratio.powers
         changed = factor * claim.meant.right
         yield _changed(claim, claim.meant.left, changed, "factor", f"{factor} on {WHOLE}")
+
+
+def _names_lost(claim: Claim) -> Iterator[Repair]:
+    """Yield the equation with a variable that stays as another factor, if one may be lost."""
+    moves = Tuple(*(claim.meant.toward or ())).free_symbols
+    for name, power in product(variables(claim), (1, -1)):
+        if name not in moves and _may_be_lost(claim, name**power):
+            changed = name**power * claim.meant.right
+            what = f"{name**power} on {WHOLE}"
+            yield _changed(claim, claim.meant.left, changed, "factor", what)
 
 
 def _may_be_lost(claim: Claim, powers: Expr) -> bool:

@@ -150,12 +150,20 @@ def where_true(claim: Claim, is_true: Callable[[Point], bool | None]) -> str:
     if min(len(true), len(false)) < _EACH:
         return ""
     share = f"true at {len(true)} of {len(true) + len(false)} points"
+    told = telling(claim, true, false)
+    return f"{share}: wherever {told} (if this is meant, put it in `require`)" if told else share
+
+
+def telling(claim: Claim, some: Sequence[Point], others: Sequence[Point]) -> str:
+    """Return a condition that some points meet and others do not; empty if none is found."""
+    if min(len(some), len(others)) < _EACH:
+        return ""
     for told, difference in _comparisons(claim):
-        values = [_value(claim, difference, point) for point in (*true, *false)]
+        values = [_value(claim, difference, point) for point in (*some, *others)]
         met = [value is not None and value < 0 for value in values]
-        if all(met[: len(true)]) and not any(met[len(true) :]):
-            return f"{share}: wherever {told} (if this is meant, put it in `require`)"
-    return share
+        if all(met[: len(some)]) and not any(met[len(some) :]):
+            return told
+    return ""
 
 
 def _comparisons(claim: Claim) -> Iterator[tuple[str, Expr]]:

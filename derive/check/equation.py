@@ -62,7 +62,7 @@ class Equation:
         held = held.union(*(each.free_symbols for each in (*conditions, *changed)))
         places = {place: SIGNED for place in PLACES.values()}
         ranges = {**places, **self.declared.ranges, **self._ranges()}
-        named = _names_in(self.left, self.right)
+        named = _names_in(self.left, self.right, *self._approached)
         calls = {symbol: call for call, symbol in self._calls.items()}
         is_equal = self.relation == Relation.LIKE and not (entry.approach or entry.leading)
         return AsMeant(
@@ -154,6 +154,12 @@ class Equation:
 
     # -------------------------------------------------------------- entries beside the equation
 
+    @cached_property
+    def _approached(self) -> tuple[Expr, ...]:
+        """The expression that tends to an end, and this end, if the claim is about a limit."""
+        told = self.entry.approach
+        return approach(told, self._names("as")) if told else ()
+
     def _toward(self) -> tuple[Expr, Expr] | None:
         """Return the expression that tends to an end, and this end, in our variables."""
         told, order = self.entry.approach, self.entry.order
@@ -162,7 +168,7 @@ class Equation:
         self.place.demand(bool(told) or order is None, why, remedy)
         if not told:
             return None
-        first, end = approach(told, self._names("as"))
+        first, end = self._approached
         return self.context.in_variables(first), self.context.in_variables(end)
 
     def _conditions(self, held: set[Symbol]) -> tuple[Boolean, ...]:

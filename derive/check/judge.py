@@ -13,7 +13,7 @@ from mpmath.libmp import to_rational
 from sympy import Expr, Integral, Rational, Symbol
 
 from derive.check.claim import Claim, Meaning, Point, Range, Rounded, Verdict
-from derive.check.diagnosis import quotient
+from derive.check.diagnosis import quotient, telling
 from derive.check.draw import LEAST, further, points, ranges_of, spread, unseen, variables
 from derive.check.intervals import Decision, decide, ends, gap_of
 from derive.check.numbers import Numbers, Pair, both, numbers
@@ -153,14 +153,15 @@ class Judging:
 
     found      the values of both sides so far
     left_out   number of points without a value
-    unreal     number of points where the sides differ and one is not real; no counter-examples
+    unreal     points where the sides differ and one is not real; they are no counter-examples
     one_sided  number of those points at which the other side is real
     """
 
     def __init__(self, sides: Sides, look: LookAtClock) -> None:
         self.sides, self.claim, self.look = sides, sides.claim, look
         self.found: list[Pair] = []
-        self.left_out, self.unreal, self.one_sided = 0, 0, 0
+        self.unreal = list[Point]()
+        self.left_out, self.one_sided = 0, 0
 
     def limit(self) -> Judged | None:
         """Judge whether the ratio tends to 1, or whether the difference has the printed order."""
@@ -216,7 +217,7 @@ class Judging:
         is_real = [mpmath.im(side) == 0 for side in (pair.left, pair.right)]
         relation, ordered = self.claim.meant.relation, self.claim.meant.is_inequality
         if not all(is_real) and not pair.agree:
-            self.unreal += 1
+            self.unreal.append(point)
             self.one_sided += is_real[0] != is_real[1]
             return None
         if ordered and relation.is_strict and pair.agree and not self._are_equal_at(point):
@@ -231,6 +232,9 @@ class Judging:
 
     def _at_too_few_points(self) -> Judged | None:
         few, claim = len(self.found), self.claim
+        sides = zip(("left", "right"), self.sides.in_variables, strict=True)
+        if not few and (infinite := [name for name, side in sides if side.is_infinite]):
+            return self._judged(Verdict.UNCHECKED, f"the {infinite[0]} side is infinite")
         if not few and (claim.meant.cases or not variables(claim)):
             return self._judged(Verdict.UNCHECKED, "a side is not a real number")
         if few >= LEAST or not variables(claim):
@@ -244,7 +248,7 @@ class Judging:
             return self._judged(Verdict.UNCHECKED, f"{why}: {remedy}")
         reasons = [f"both sides are real numbers at only {_points(few)}"]
         if self.unreal:
-            reasons.append(f"one side is not real at {_points(self.unreal)}")
+            reasons.append(f"one side is not real at {_points(len(self.unreal))}{self._not_real()}")
         if self.left_out:
             reasons.append(f"there is no value at {_points(self.left_out)}")
         if claim.meant.conditions:
@@ -253,7 +257,7 @@ class Judging:
             )
         remedy = "restrict the variables with `low`, `high` and `require`"
         judged = self._judged(Verdict.UNCHECKED, f"{', '.join(reasons)}: {remedy}")
-        alone = self.one_sided if not few and self.one_sided == self.unreal else 0
+        alone = self.one_sided if not few and self.one_sided == len(self.unreal) else 0
         return replace(judged, one_side_real=alone)
 
     # -------------------------------------------------------------- inequalities and bounds
@@ -371,8 +375,15 @@ class Judging:
         if self.claim.meant.cases:
             return f"in {count} prescribed {'case' if count == 1 else 'cases'} alone"
         left_out = f"; no value at {self.left_out} more points" if self.left_out else ""
-        left_out += f"; one side is not real at {self.unreal} more points" if self.unreal else ""
+        if self.unreal:
+            left_out += f"; one side is not real at {len(self.unreal)} more points"
+            left_out += self._not_real()
         return f"at {_points(count)} ({spread([pair.point for pair in self.found])}{left_out})"
+
+    def _not_real(self) -> str:
+        """Tell a comparison that shows where a side is not real, if there is one."""
+        told = telling(self.claim, self.unreal, [pair.point for pair in self.found])
+        return f", wherever {told}" if told else ""
 
     def _judged(self, verdict: Verdict, why: str) -> Judged:
         return Judged(verdict, why, tuple(self.found))

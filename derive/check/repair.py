@@ -21,6 +21,7 @@ from sympy import (
     S,
     Symbol,
     pi,
+    powdenest,
     preorder_traversal,
     sign,
     sqrt,
@@ -34,8 +35,8 @@ WHOLE = "the whole expression"
 """The end of `Edit.what` for a change of a whole side."""
 
 KINDS = (
-    *("sign", "factor", "swap", "function", "exponent"),
-    *("angle", "term", "modulus", "limit", "relation"),
+    *("sign", "limit", "factor", "swap", "function", "exponent"),
+    *("angle", "term", "modulus", "relation"),
 )
 """The kinds of changes, in the order of preference."""
 
@@ -258,11 +259,13 @@ def _other_ratio(place: Place, names: Names) -> _Changed:
 
 
 def _other_end(place: Place, names: Names) -> _Changed:
-    """Write zero, another name, or the opposite of one or of the other end."""
+    """Write zero, another name, or the opposite of one or of the other end, but not this end."""
     ends = [-end for end in place.within.args[1:]] if place.within else []
     alike = [n for n, unit in names.units.items() if unit == names.units.get(place.part)]
     others = [n for n in dict.fromkeys((*names.swaps, *alike)) if n != place.part]
     for end in (S.Zero, *ends, *others, *(-name for name in others)):
+        if -end in ends:
+            continue
         yield f"{end} for {place} as an end of the integral", end
 
 
@@ -297,6 +300,24 @@ def _other_exponent(place: Place, names: Names) -> _Changed:
                 yield f"{other} on {bracket}{end}", changed
 
 
+def _in_bracket(place: Place, names: Names) -> _Changed:
+    """Write (u - v)**n for u**n - v**n, or the other way round."""
+    base, power = place.part.as_base_exp()
+    if len(base.args) != 2:
+        return
+    if power.is_Rational and base.is_Add:
+        yield f"{power} on each term of {base}", Add(*(_raised(n, power) for n in base.args))
+    for number in (2, 3, S.Half) if place.part.is_Add else ():
+        terms = [_raised(n, S.One / number) for n in place.part.args]
+        yield f"{number} on {Add(*terms)}", Add(*terms) ** number
+
+
+def _raised(term: Expr, power: Expr) -> Expr:
+    """Return a power of a term, which keeps its sign."""
+    sign_ = -1 if term.could_extract_minus_sign() else 1
+    return sign_ * powdenest((sign_ * term) ** power, force=True)
+
+
 def _upside_down(place: Place, names: Names) -> _Changed:
     """Invert the number of a product, or exchange a factor and a divisor."""
     number, rest = place.part.as_coeff_Mul()
@@ -320,6 +341,7 @@ _RULES: tuple[tuple[str, _Places, Callable[[Place, Names], _Changed]], ...] = (
     ("function", _calls, _other_function),
     ("exponent", _any(_whole, _names, _all(Add), _all(Pow), _brackets), _other_exponent),
     ("exponent", _inside(Add, of=Symbol), _other_exponent),
+    ("exponent", _any(_all(Pow), _all(Add)), _in_bracket),
     ("exponent", _all(Mul), _upside_down),
     ("angle", _names, _complement),
     ("term", _inside(Add), lambda p, _: [(f"without {p}", S.Zero)]),

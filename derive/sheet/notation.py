@@ -13,8 +13,8 @@ from derive.symbols import QUANTITIES
 _FUNCTIONS = ("sin", "cos", "tan", "cot")
 """Names such as sin_1 are functions of half the angle of a point."""
 
-_DERIVATIVE = re.compile(r"d([A-Za-z])_d([A-Za-z])")
-"""Name of a derivative such as dP_dQ."""
+_DERIVATIVE = re.compile(r"d(\d*)([A-Za-z]+(?:_\w+)?)_d([A-Za-z]+(?:_\w+?)?)\1")
+"""Name of a derivative such as dP_dQ, dP_prime_db or d2g_dx2."""
 
 
 def text_of(expr: Basic) -> str:
@@ -72,8 +72,10 @@ def latex_name(name: str) -> str:
         return name
     if own := _theory_names().get(name):
         return own
-    if found := _DERIVATIVE.fullmatch(name):
-        return rf"\frac{{\mathrm{{d}}{found[1]}}}{{\mathrm{{d}}{found[2]}}}"
+    if (found := _DERIVATIVE.fullmatch(name)) and all(map(_begins_with_letter, found.groups()[1:])):
+        times = f"^{{{found[1]}}}" if found[1] else ""
+        over, under = latex_name(found[2]), latex_name(found[3])
+        return rf"\frac{{\mathrm{{d}}{times}{over}}}{{\mathrm{{d}}{under}{times}}}"
     stem, raised, lowered = split_super_sub(name)
     base = _theory_names().get(stem) or _letter(stem)
     if stem in _FUNCTIONS:
@@ -85,6 +87,10 @@ def latex_name(name: str) -> str:
         base, lowered = f"{base}'", lowered[1:]
     below, above = (",".join(map(_letter, parts)) for parts in (lowered, raised))
     return base + (f"_{{{below}}}" if below else "") + (f"^{{{above}}}" if above else "")
+
+
+def _begins_with_letter(name: str) -> bool:
+    return _is_letter(name.partition("_")[0])
 
 
 def _is_letter(part: str) -> bool:

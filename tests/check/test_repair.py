@@ -103,6 +103,9 @@ MISPRINTS = {
         ),
         ("Q/(f*P) = 1 - l/a", "Q/(P*f) = 1 - l**2/a**2"),
         ("Q/(f*P) = 1 - l**2/a", "Q/(P*f) = 1 - l**2/a**2"),
+        ("Q = f*P*(1 - l/a)**2", "Q = P*f*(1 - l**2/a**2)"),
+        ("(l/a)**2 = (1 - Q/(f*P))**2", "l**2/a**2 = 1 - Q/(P*f)"),
+        ("1 - l/a = 1 - (1 - Q/(f*P))**2", "1 - l/a = 1 - sqrt(1 - Q/(P*f))"),
         ("l/a = 1 - Q/(f*P)", "l/a = sqrt(1 - Q/(P*f))"),
         ("l/a = sqrt(1 + Q/(f*P))", "l/a = sqrt(1 - Q/(P*f))"),
         ("l = sqrt(1 - Q/(f*P))", "l = a*sqrt(1 - Q/(P*f))"),
@@ -131,7 +134,10 @@ MISPRINTS = {
         ("l/sqrt(a**2 - l**2) = 1/tan(phi_0)", "l/sqrt(a**2 - l**2) = tan(phi_0)"),
         ("K_N = p_0*sqrt(2*a)", "K_N = p_0*sqrt(2/a)"),
         ("P = 2*integral(p_at_s, s, 0, l)", "P = 2*integral(p_at_s, s, 0, a)"),
-        ("P = 2*integral(p_at_s, s, -a, a)", "P = integral(p_at_s, s, -a, a)"),
+        # an end of an integral comes before a factor
+        ("P = 2*integral(p_at_s, s, -a, a)", "P = 2*integral(p_at_s, s, 0, a)"),
+        ("P = integral(p_at_s, s, 0, a)", "P = integral(p_at_s, s, -a, a)"),
+        ("integral(p_at_s, s, 0, a) = P", "integral(p_at_s, s, -a, a) = P"),
     ],
     WEDGE: [
         ("tan(theta) = 2*sqrt(a*c)/(a - c)", "cot(theta) = 2*sqrt(a*c)/(a - c)"),
@@ -231,6 +237,11 @@ def test_no_correction_is_found(tmp_path: Path, printed: str) -> None:
         ("1 - l/a ~ Q/(f*P)", "k -> 1", "", "1 - l/a ~ Q/(2*P*f)"),
         ("l/a = 1 - Q/(f*P)", "k -> 1", "2", "l/a = 1 - Q/(2*P*f)"),
         ("p_at_x = p_0*(1 - x**2/a**2)", "x -> 0", "4", "p_at_x = p_0*(1 - x**2/(2*a**2))"),
+        # near an edge, the pressure is K_N sqrt(a - x); with l near to a, Q is 2 f P (1 - l/a)
+        ("p_at_x ~ K_N*(a - x)", "x -> a", "", "p_at_x ~ K_N*sqrt(a - x)"),
+        ("f*p_at_x ~ K_N*sqrt(a - x)", "x -> a", "", "f*p_at_x ~ K_N*f*sqrt(a - x)"),
+        ("Q ~ 2*P*(1 - l/a)", "l -> a", "", "Q ~ 2*P*f*(1 - l/a)"),
+        ("Q ~ 2*f*P*(1 - c/a)", "l -> a", "", "Q ~ 2*P*f*(1 - l/a)"),
         # a term that does not matter may be anything; (a - l)/a is about Q/(2 f P)
         ("a - l ~ Q/(f*P) + l", "k -> 1", "", None),
         ("sin(t) = t - t**2/2", "t -> 0", "3", None),

@@ -113,6 +113,11 @@ CASES = [
     (FREE, "integral(sin(s), s, 0, n) = n**2/2", f"{N_0}\norder = 4", "numerical"),
     (FREE, "integral(sin(s), s, 0, n) = n**2/2", f"{N_0}\norder = 5", "fails"),
     (FREE, "k*(0.9 - k) ~ 0.9*(0.9 - k)", 'as = "k -> 0.9"', "numerical"),
+    # values at an edge, and at the end of a stick zone
+    (HERTZ, "pressure(-a, a, a) = 0", "", "holds"),
+    (HERTZ, "pressure(a, a, a) = p_0", "", "fails"),
+    (HERTZ, "pressure(c, a, a) - pressure(c, c, c) = E_star*sqrt(a**2 - c**2)/(2*R)", "", "holds"),
+    (HERTZ, "pressure(c, a, a) - pressure(c, c, c) = E_star*(a - c)/(2*R)", "", "fails"),
     # what is true by the definitions alone
     (CIRCULAR, "p_0 = 3*P/(2*pi*a)", "", "by definition"),
     (CIRCULAR, "P = 2*pi*a*p_0/3", "", "by definition"),

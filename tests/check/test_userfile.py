@@ -320,6 +320,7 @@ LATEX = "latex = 'Q = \\phi a E_star/2'\nunderstood = 'Q = phi*a*E_star/2'"
 SPELLED = (
     "latex = 'a = 2 a \\int_0^1 T dT'\npart = 1\nunderstood = 'a = 2*a*integral({0}, {0}, 0, 1)'"
 )
+AT_KINK = "pressure(0, a, a) = E_star*a*(R_1 + R_2)/(4*R_1*R_2)"
 LARGE = "10**(-40)*(1 - 1/(1 + 10**(-20)*{}))"
 
 # By hand: the inner integral is xi**2/2, and a b**2/2 in B.  A cap of height a - b**2/a at the
@@ -353,6 +354,14 @@ VERDICTS = [
     (SHORT, "limit(integral(exp(-s**2*a)/(s + 1)**a, s, a, b), a, oo) = b", "unchecked", "1 s"),
     (SHORT, "limit(Min(1, x), x, a) = b", "unchecked", "no value of limit(Min(1, x), x, a)"),
     (WEDGE, "load(A, c) = E_star*phi*sqrt(a*c)", "holds", ""),
+    # the pressure vanishes at the edges, and is infinite at the apex
+    (WEDGE, "pressure(c, a, c) + pressure(-A, a, c) = 0", "holds", ""),
+    (WEDGE, "pressure(c, a, c) = E_star*phi", "fails", ""),
+    (WEDGE, "pressure(0, a, c) = E_star*phi", "unchecked", "the left side is infinite"),
+    (WEDGE, "pressure(2*c, a, c) = 0", "unchecked", "never satisfied"),
+    # two half cylinders: the mean of E* a/(2 R_1) and E* a/(2 R_2)
+    (BODIES, f"body = 'two_radii'\nprinted = '{AT_KINK}'", "holds", ""),
+    (WEDGE, "log(x**2) = 2*log(x)", "numerical", "more points, wherever x < 0"),
     (UNIT, "abs(x) = x", "numerical", ""),  # a place may have a range
     (BODIES, f"body = 'none'\n{RADIUS}printed = '1/R = 1/R_1 + 1/R_2'", "by definition", ""),
     (BODIES, f"{RADIUS}printed = '1/R = 1/R_1 + 1/R_2'", "by definition", ""),

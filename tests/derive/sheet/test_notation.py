@@ -27,6 +27,8 @@ LATEX = {
     **{"S_right": r"S_{\mathrm{right}}", "d_exact_left": r"d_{\mathrm{exact},\mathrm{left}}"},
     **{"Delta_K_T": r"\Delta K_{T}", "Delta_sigma_th": r"\Delta \sigma_{\mathrm{th}}"},
     **{"Delta_1": r"\Delta_{1}", "radius": r"\mathrm{radius}", "alpha_a": r"\alpha_{a}"},
+    **{"dP_prime_db": r"\frac{\mathrm{d}P'}{\mathrm{d}b}", "dQ_d": r"\Delta Q_{d}"},
+    **{"d2g_dx2": r"\frac{\mathrm{d}^{2}g}{\mathrm{d}x^{2}}"},
     **{"dP_dQ": r"\frac{\mathrm{d}P}{\mathrm{d}Q}", "cos_1": r"\cos_{1}", r"\chi": r"\chi"},
 }
 
