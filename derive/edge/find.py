@@ -4,7 +4,7 @@ The half-cycle runs from the first load step to the last.  The slip zones are th
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import hypot, nan
 
 import numpy as np
@@ -122,19 +122,15 @@ def find(
             "the slip zones cannot be computed, because the shear traction is missing: add that of "
             "a run without slip to the table, or give --dQ and --dsigma"
         )
+    notes += _unlikely(steps[-1])
+    slides = _slides(steps, last, stuck, f)
+    notes += slides
     moves = {side: _move(first.get(side), last[side]) for side in last}
     zones = tuple(
-        _zone(side, last, first, stuck, moves, f)
+        _zone(side, last, first, stuck, moves, nan if slides else f)
         for side in SIDES
         if side in last and side in stuck
     )
-    unlikely = _unlikely(steps[-1])
-    notes += [unlikely] if unlikely else []
-    slides = _slides(steps, last, stuck, f)
-    if slides:
-        notes.append(slides)
-        none = dict.fromkeys(("d", "error", "series", "part"), nan)
-        zones = tuple(replace(zone, **none) for zone in zones)  # type: ignore[arg-type]
     for zone in () if slides else zones:
         if np.isnan(zone.d):
             notes.append(
@@ -149,16 +145,16 @@ def find(
     return Findings(tuple(edges), tuple(shears), zones, tuple(notes))
 
 
-def _unlikely(step: Step) -> str:
-    """Return a warning if the units of a table are not plausible, or else ""."""
+def _unlikely(step: Step) -> list[str]:
+    """Return a warning if the units of a table are not plausible."""
     highest, inside = float(np.max(step.p)), step.x[step.p > 0]
     width = float(np.ptp(inside))
     if PRESSURES[0] <= highest <= PRESSURES[1] and WIDTHS[0] <= width <= WIDTHS[1]:
-        return ""
-    return (
+        return []
+    return [
         f"the largest pressure is {highest:.3g} Pa and the contact is {width:.3g} m wide: "
         "check the units"
-    )
+    ]
 
 
 def _slides(
@@ -166,19 +162,19 @@ def _slides(
     last: dict[str, FittedEdge],
     stuck: dict[str, tuple[float, float, float, float]],
     f: float,
-) -> str:
-    """Return why the whole contact slides, or "" if it does not or if this is not known."""
+) -> list[str]:
+    """Return why the whole contact slides, if it does and if this is known."""
     if len(last) < 2 or len(stuck) < 2:
-        return ""
+        return []
     h = last["right"].pressure.edge - last["left"].pressure.edge
     dQ = np.pi * np.sqrt(h) * (stuck["left"][0] + stuck["right"][0]) / 2
     capacity = f * sum(np.trapezoid(step.p, step.x) for step in (steps[0], steps[-1]))
     if not abs(dQ) >= capacity:
-        return ""
-    return (
+        return []
+    return [
         f"no slip zone: the whole contact slides, because dQ = {dQ:.3g} N/m is not below "
         f"f (P_1 + P_2) = {capacity:.3g} N/m"
-    )
+    ]
 
 
 def _edges(step: Step, shown: str, notes: list[str]) -> list[FittedEdge]:

@@ -20,9 +20,9 @@ from derive.command.files import Unreadable, bytes_of
 MAX_BYTES = 20_000_000
 """The largest size of a file."""
 
-MAX_LINE, MAX_NUMBER, MAX_LABEL = 20_000, 50, 100
-"""The largest numbers of characters in a line, below the limit of the module csv for one field, in
-a number, and in the name of a load step."""
+MAX_LINE, MAX_LABEL = 20_000, 100
+"""The largest numbers of characters in a line, below the limit of the module csv for one field, and
+in the name of a load step."""
 
 MAX_NODES, MAX_STEPS = 20_000, 1_000
 """The largest numbers of nodes of a load step, and of load steps."""
@@ -217,8 +217,7 @@ class _Table:
         for number, fields in self.rows:
             field = fields[column]
             point = field if self.separator == "," else field.replace(",", ".")
-            known = len(field) <= MAX_NUMBER and _NUMBER.fullmatch(point)
-            value = float(re.sub("[dD]", "e", point)) if known else np.nan
+            value = float(re.sub("[dD]", "e", point)) if _NUMBER.fullmatch(point) else np.nan
             if not np.isfinite(value):
                 what = f"{field!r}" if field else "nothing"
                 raise self._bad(

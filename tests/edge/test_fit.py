@@ -164,11 +164,11 @@ def test_reaction_forces_give_K_N() -> None:
     [
         ([0.0, 1.0], [1.0], "rows of equal length"),
         ([0.0, np.nan, 2.0], [0.0, 1.0, 0.0], "x is nan at node 2"),
-        ([0.0, 1.0, 1.0], [0.0, 1.0, 2.0], "two nodes lie at"),
-        ([0.0, 2.0, 1.0], [0.0, 1.0, 2.0], "sort the nodes"),
-        ([0.0, 1.0, 2.0], [0.0, -1.0, 0.0], "must not be negative"),
-        ([0.0, 1.0, 2.0], [0.0, 0.0, 0.0], "there is no contact"),
-        ([0.0, 1.0, 2.0], [1.0, 0.0, 2.0], "one contact at a time"),
+        ([0.0, 1.0, 1.0], [0.0, 1.0, 2.0], "give each node once"),
+        ([0.0, 2.0, 1.0], [0.0, 1.0, 2.0], "is 2 at node 2 and 1 at the next: sort the nodes"),
+        ([0.0, 1.0, 2.0], [0.0, -1.0, 0.0], "it is -1 at x = 1: give compression"),
+        ([0.0, 1.0, 2.0], [0.0, 0.0, 0.0], "p must be positive at the nodes of one contact"),
+        ([0.0, 1.0, 2.0], [1.0, 0.0, 2.0], "it is 0 at x = 1: .* one contact at a time"),
     ],
 )
 def test_what_is_no_table(x: Any, p: Any, words: str) -> None:
@@ -176,7 +176,9 @@ def test_what_is_no_table(x: Any, p: Any, words: str) -> None:
         fit_pressure(x, p)
 
 
-@pytest.mark.parametrize(("edge", "words"), [(-0.5, "lie next to"), (np.nan, "numbers in metres")])
+@pytest.mark.parametrize(
+    ("edge", "words"), [(-0.5, "lie next to"), (np.nan, "edge must be one finite")]
+)
 def test_an_edge_elsewhere_is_refused(edge: float, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         fit_stuck_shear(np.linspace(0, 1, 40), np.ones(40), edge)

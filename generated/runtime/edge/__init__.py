@@ -5,7 +5,6 @@ fit      coefficients from nodal pressures, from full-stick shear, from reaction
 average  the average over all fits to an edge
 elastic  the composite modulus
 rig      loads of a body whose edge then matches the edge of another contact
-contact  the contacts of this body
 """
 
 from .elastic import E_star, EdgeWarning, dundurs
@@ -13,23 +12,7 @@ from .fit import K_N_from_loads, PressureFit, ShearFit, fit_pressure, fit_stuck_
 from .near import SlipZone, Tractions, reach, slip_range, slip_zone, tractions
 from .rig import Edge, Rig, describe, match
 
-__all__ = [
-    "E_star",
-    "Edge",
-    "EdgeWarning",
-    "K_N_from_loads",
-    "PressureFit",
-    "Rig",
-    "ShearFit",
-    "SlipZone",
-    "Tractions",
-    "describe",
-    "dundurs",
-    "fit_pressure",
-    "fit_stuck_shear",
-    "match",
-    "reach",
-    "slip_range",
-    "slip_zone",
-    "tractions",
-]
+__all__ = ["E_star", "EdgeWarning", "dundurs"]
+__all__ += ["K_N_from_loads", "PressureFit", "ShearFit", "fit_pressure", "fit_stuck_shear"]
+__all__ += ["SlipZone", "Tractions", "reach", "slip_range", "slip_zone", "tractions"]
+__all__ += ["Edge", "Rig", "describe", "match"]

@@ -13,6 +13,7 @@ ones is that of the mesh times (element/s)**2.5.
 """
 
 import math
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -101,7 +102,9 @@ def fit_pressure(x: Values, p: Values) -> PressureFit:
     Parameters
     ----------
     x : array_like
-        Positions of the nodes along the interface, increasing or decreasing [m].
+        Positions of the nodes along the interface, increasing or decreasing [m].  Nodes outside the
+        contact may be omitted.  The distance to the next node is then assumed to be that between
+        the first two nodes of the contact.
     p : array_like
         Contact pressure at the nodes, zero outside the contact [Pa].
 
@@ -117,11 +120,6 @@ def fit_pressure(x: Values, p: Values) -> PressureFit:
     ValueError
         If the arguments are not a table of one contact.
 
-    Notes
-    -----
-    Nodes outside the contact may be omitted.  The distance to the next node is then assumed to be
-    that between the first two nodes of the contact.
-
     Examples
     --------
     >>> x = np.linspace(-1.03, 1.07, 64)
@@ -130,28 +128,18 @@ def fit_pressure(x: Values, p: Values) -> PressureFit:
     '-1.0000, K_N = 1.414'
     """
     places, values = _table(x, p, "p")
-    if np.any(values < 0):
-        raise ValueError(
-            f"pressure must not be negative; it is negative at {np.sum(values < 0)} of "
-            f"{len(values)} nodes: give compression as positive, and 0 outside the contact"
-        )
-    if not np.any(values):
-        raise ValueError(
-            "pressure is zero at all nodes, so there is no contact: give a table with positive "
-            "pressures"
-        )
-    first, last = map(int, np.flatnonzero(values)[[0, -1]])
+    first, last = map(int, np.flatnonzero(values)[[0, -1]]) if np.any(values) else (0, 0)
     contact, inner = slice(first, last + 1), slice(first + 1, last)
-    if not np.all(values[contact]):
-        hole = places[contact][values[contact] == 0][0]
+    for at in first + np.flatnonzero(values[contact] <= 0):
         raise ValueError(
-            f"pressure is zero at x = {hole:.6g} between nodes in contact: give the nodes of one "
+            "p must be positive at the nodes of one contact and 0 at all others; it is "
+            f"{values[at]:.6g} at x = {places[at]:.6g}: give compression as positive, and one "
             "contact at a time"
         )
     if last - first < 9:
         why = f"{last - first + 1} nodes in contact are too few: use a finer mesh"
         return nothing(PressureFit, last - first + 1, why)
-    inward = 1.0 if places[-1] > places[0] else -1.0
+    inward = np.sign(places[-1] - places[0])
     element = abs(places[first] - places[first - 1 if first else first + 1])
     middle = places[first] - inward * element / 2
     # the outermost nodes belong to elements that are only partly in contact
@@ -175,10 +163,13 @@ def fit_pressure(x: Values, p: Values) -> PressureFit:
 def fit_stuck_shear(x: Values, dq: Values, edge: float, edge_error: float = 0.0) -> ShearFit:
     """K_T and L_T of an edge, from the change in shear traction in a run without slip.
 
+    Nodes outside the edge, and the node of the element in which the contact ends, are left out.
+    The other edge is taken to lie behind the last node with a traction.
+
     Parameters
     ----------
     x : array_like
-        Positions of the nodes along the interface, increasing or decreasing [m].
+        As in fit_pressure.
     dq : array_like
         Change in the shear traction at the nodes, in a bonded or fully stuck contact [Pa].
     edge : float
@@ -193,15 +184,8 @@ def fit_stuck_shear(x: Values, dq: Values, edge: float, edge_error: float = 0.0)
 
     Raises
     ------
-    TypeError
-        If an argument is not of real numbers.
-    ValueError
-        If the arguments are not a table, or if the edge does not lie next to its first node.
-
-    Notes
-    -----
-    Nodes outside the edge, and the node of the element in which the contact ends, are left out.
-    The other edge is taken to lie behind the last node with a traction.
+    TypeError, ValueError
+        As in fit_pressure; also ValueError if the edge does not lie next to the table's first node.
 
     Examples
     --------
@@ -211,17 +195,8 @@ def fit_stuck_shear(x: Values, dq: Values, edge: float, edge_error: float = 0.0)
     'K_T = 0.707'
     """
     places, values = _table(x, dq, "dq")
-    if np.ndim(edge) or np.ndim(edge_error):
-        raise TypeError(
-            f"edge and edge_error must be numbers; got {edge!r:.40}, {edge_error!r:.40}"
-        )
-    edge, edge_error = float(real(edge, "edge")), float(real(edge_error, "edge_error"))
-    if not (math.isfinite(edge) and 0 <= edge_error < math.inf):
-        raise ValueError(
-            "edge and edge_error must be finite numbers in metres, and edge_error must not be "
-            f"negative; got {edge}, {edge_error}"
-        )
-    s = (places - edge) if places[-1] > places[0] else (edge - places)
+    edge, edge_error = number(edge, "edge"), number(edge_error, "edge_error", "non-negative finite")
+    s = (places - edge) * np.sign(places[-1] - places[0])
     steps = np.diff(s)[s[1:] > 0]
     if len(steps) == 0 or s[0] > 3 * steps[0]:
         raise ValueError(
@@ -264,6 +239,8 @@ def K_N_from_loads(P: Values, M: Values, a: Values, c: Values) -> Edges:
 
         K_N dedge = 2 (dP +/- 4 (dM + mid dP)/h)/(pi sqrt(h)), the upper sign at the left edge
 
+    Each argument holds the two loads along its last axis; the other axes broadcast.
+
     Parameters
     ----------
     P : array_like
@@ -285,10 +262,6 @@ def K_N_from_loads(P: Values, M: Values, a: Values, c: Values) -> Edges:
         If an argument is not an array of real numbers.
     ValueError
         Unless each argument holds two loads.
-
-    Notes
-    -----
-    Each argument holds the two loads along its last axis; the other axes broadcast.
 
     Examples
     --------
@@ -329,11 +302,24 @@ def _table(x: Any, values: Any, name: str) -> tuple[Any, Any]:
         for at in np.flatnonzero(~np.isfinite(column)):
             raise ValueError(f"{label} is {column[at]} at node {at + 1}: give finite numbers only")
     steps = np.diff(x)
-    for at in np.flatnonzero(steps == 0):
-        raise ValueError(f"two nodes lie at x = {x[at]:.6g}: give each node once")
-    for at in np.flatnonzero(np.sign(steps) != np.sign(steps[0])):
-        raise ValueError(f"x changes its direction after node {at + 1}: sort the nodes along x")
+    for at in np.flatnonzero(np.sign(steps) * np.sign(steps[0]) <= 0):
+        raise ValueError(
+            f"x must rise or fall from each node to the next; it is {x[at]:.6g} at node {at + 1} "
+            f"and {x[at + 1]:.6g} at the next: sort the nodes along x, and give each node once"
+        )
     return x, values
+
+
+def number(value: Any, name: str, kind: str = "finite") -> float:
+    """One number that is "finite", "non-negative finite" or "positive finite".
+
+    Raises TypeError if it is not a real number, ValueError if it is not of this kind.
+    """
+    found = real(value, name)
+    signs = {"finite": (-1, 0, 1), "non-negative finite": (0, 1), "positive finite": (1,)}
+    if np.ndim(found) or not (math.isfinite(found) and np.sign(found) in signs[kind]):
+        raise ValueError(f"{name} must be one {kind} number; got {value!r:.60}")
+    return float(found)
 
 
 def _at_root(b: Any, length: float, limit: float) -> Any:
@@ -341,12 +327,14 @@ def _at_root(b: Any, length: float, limit: float) -> Any:
 
     NaN if the root lies beyond the limit, or the pressure falls there.
     """
-    first, second = polynomial.polyder(b), polynomial.polyder(b, 2)
-    u, step = 0.0, 0.0
+    square, slope, curvature = (
+        partial(polynomial.polyval, c=polynomial.polyder(b, k), tensor=False) for k in range(3)
+    )
+    u: Any = 0.0
     for _ in range(20):
-        step = polynomial.polyval(u, b, tensor=False) / polynomial.polyval(u, first, tensor=False)
+        step = square(u) / slope(u)
         u = u - step
-    K = np.sqrt(polynomial.polyval(u, first, tensor=False) / length)
-    L = polynomial.polyval(u, second, tensor=False) / (4 * K * length**2)
+    K = np.sqrt(slope(u) / length)
+    L = curvature(u) / (4 * K * length**2)
     found = (np.abs(u) * length <= limit) & (np.abs(step) < 1e-9)
     return np.where(found, np.stack([u * length, K, L]), np.nan)

@@ -11,17 +11,19 @@ The remaining differences are one order higher: L_N and L_T, the width, and the 
 requests exclude each other: a cylinder has the same K_N at both edges, and L_N = -K_N/(2 h) there.
 """
 
-import inspect
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..reasons import MEANINGS
 from ..types import Contact, Edges, Regime
-from .contact import MATCH_RTOL, contact_of, start_of
+from .fit import number
 from .near import slip_zone
+
+MATCH_RTOL = 1e-8
+"""Relative deviation below which a request counts as met."""
 
 MAX_SLIP = 0.2
 """Slip zone over contact width above which an edge is not independent of the other one."""
@@ -152,28 +154,34 @@ def match(
     >>> f"P = {rig.P:.4g} N/m, dQ = {rig.dQ:.4g} N/m, slip zone {1e6 * rig.d.left:.0f} um"
     'P = 8.069e+05 N/m, dQ = 2.732e+05 N/m, slip zone 176 um'
     """
-    f, E_star = _number(f, "f", least=0.0), _number(E_star, "E_star", least=0.0)
-    law = _law(module, free, parameters)
-    requested = _requests(edge, free)
+    f, E_star = (number(v, name, "positive finite") for v, name in ((f, "f"), (E_star, "E_star")))
+    law = {name: number(value, name, "positive finite") for name, value in parameters.items()}
+    requested = _requests(edge)
+    if not callable(getattr(module, "stick_zone", None)):
+        raise TypeError(
+            f"module must be a generated body, such as generated.hertz; got {module!r:.60}"
+        )
+    if free and (free in law or all(one.L_N is None for one in requested.values())):
+        raise ValueError(
+            f"free={free!r} is determined from L_N: give either {free} or L_N of an edge"
+        )
 
     def of(name: str, a: Any, c: Any, law: Mapping[str, Any]) -> Any:
         return getattr(module, name)(a, c, E_star=E_star, **law)
 
-    a, c, law = contact_of(of, requested, law, free)
-    a_1, c_1 = start_of(of, requested, law, a, c)
+    (a, c, a_1, c_1), law = _contacts(of, requested, law, free)
+    if not any(one.da for one in requested.values()):
+        a_1, c_1 = a, c
     first, second = (Contact(*at, float(module.tilt(*at, **law))) for at in ((a_1, c_1), (a, c)))
     (P_1, M_1), (P, M) = (
         [float(of(name, at.a, at.c, law)) for name in ("load", "moment")] for at in (first, second)
     )
     if len(requested) == 1:
         M = M_1 = 0.0
-    dQ, dsigma = _shear(requested, a + c)
-    rows = [of("K_N", a, c, law), module.K_T(a, c, dQ, dsigma), (a - a_1, c - c_1)]
-    rows += [of("L_N", a, c, law), module.L_T(a, c, dQ, dsigma)]
-    columns = zip(*rows, strict=True)
-    edges = Edges(
-        *(Edge._make([*map(float, v), s]) for v, s in zip(columns, Edges._fields, strict=True))
-    )
+    dQ, dsigma = _shear(module, requested, a, c)
+    rows: list[Any] = [of("K_N", a, c, law), module.K_T(a, c, dQ, dsigma), (a - a_1, c - c_1)]
+    rows += [of("L_N", a, c, law), module.L_T(a, c, dQ, dsigma), Edges._fields]
+    edges = Edges(*(Edge._make([*map(float, v), side]) for *v, side in zip(*rows, strict=True)))
     if dQ < 0:
         dQ, dsigma = -dQ, 0.0 - dsigma
     zone = module.stick_zone(first, second, dQ, dsigma, f=f, E_star=E_star, **law)
@@ -239,32 +247,7 @@ def describe(rig: Rig) -> str:
     return "\n".join(lines + ([f"warning: {rig.warning}"] if rig.warning else []))
 
 
-def _number(value: Any, name: str, least: float = -math.inf) -> float:
-    """One finite number above `least`."""
-    number = float(value) if isinstance(value, int | float | np.number) else math.nan
-    if not (math.isfinite(number) and number > least):
-        kind = "finite" if least else "positive finite"
-        raise ValueError(f"{name} must be one {kind} number; got {value!r:.60}")
-    return number
-
-
-def _law(module: Any, free: str | None, parameters: Mapping[str, Any]) -> dict[str, float]:
-    """The body's parameters as numbers, without the free one."""
-    if not callable(getattr(module, "stick_zone", None)):
-        raise TypeError(
-            f"module must be a generated body, such as generated.hertz; got {module!r:.60}"
-        )
-    own = sorted(inspect.signature(module.load).parameters.keys() - {"a", "c", "E_star"})
-    given = sorted([*parameters, *([free] if free else [])])
-    if given != own:
-        raise ValueError(
-            f"the body's parameters are {', '.join(own)}; got {', '.join(given) or 'none'}: give "
-            "each of them once, or name one of them in `free`"
-        )
-    return {name: _number(value, name, least=0.0) for name, value in parameters.items()}
-
-
-def _requests(edge: Any, free: str | None) -> dict[str, Edge]:
+def _requests(edge: Any) -> dict[str, Edge]:
     """The data requested of each edge, as numbers."""
     pair = hasattr(edge, "left") and hasattr(edge, "right")  # Edges of any package
     requested: dict[str, Edge] = {}
@@ -276,26 +259,83 @@ def _requests(edge: Any, free: str | None) -> dict[str, Edge]:
             raise ValueError(f"side must be 'left' or 'right'; got {side!r:.40}")
         for name, value in one._asdict().items():
             if name != "side" and not (value is None and name in ("L_N", "L_T")):
-                number: Any = _number(value, name, 0.0 if name == "K_N" else -math.inf)
-                one = one._replace(**{name: number})
-        requested[side] = one._replace(side=side)
-    if free and all(one.L_N is None for one in requested.values()):
-        raise ValueError(
-            f"free={free!r} is determined from L_N: give L_N of an edge, or {free} itself"
-        )
+                size: Any = number(value, name, "positive finite" if name == "K_N" else "finite")
+                one = one._replace(**{name: size})
+        requested[side] = one
     return requested
 
 
-def _shear(requested: Mapping[str, Edge], h: float) -> tuple[float, float]:
-    """dQ and dsigma: sqrt(h) K_T = dQ/pi +- dsigma h/8, 2 h**(3/2) L_T = dQ/pi -+ 3 dsigma h/8."""
-    if len(requested) == 2:
-        left, right = (math.sqrt(h) * requested[side].K_T for side in Edges._fields)
-        return math.pi * (left + right) / 2, 4 * (left - right) / h
-    ((side, one),) = requested.items()
-    force, tension = math.sqrt(h) * one.K_T, 0.0
-    if one.L_T is not None:
-        tension = (force - 2 * h**1.5 * one.L_T) / 4
-    return math.pi * (force - tension), 8 * tension / h * (1 if side == "left" else -1)
+def _contacts(
+    of: Callable[..., Any], requested: Mapping[str, Edge], law: dict[str, float], free: str | None
+) -> tuple[list[float], dict[str, float]]:
+    """a and c at the end and at the start of the half-cycle, and the body's parameters.
+
+    The body enters only by its explicit functions: of(name, a, c, parameters).  The unknowns u are
+    log h, mid/h, the displacements of both edges over h, and the logarithm of the free parameter.
+    """
+    from scipy.ndimage import minimum_filter
+    from scipy.optimize import least_squares
+
+    alone = len(requested) == 1
+
+    def place(u: Any) -> tuple[list[Any], dict[str, Any]]:
+        h, lean = np.exp(u[..., 0]), u[..., 1]
+        a, c = h * (0.5 - lean), h * (0.5 + lean)
+        own = law | ({free: np.exp(u[..., 4])} if free else {})
+        return [a, c, a - h * u[..., 2], c - h * u[..., 3]], own
+
+    def residual(u: Any) -> Any:
+        (a, c, a_1, c_1), own = place(u)
+        K_N, L_N, moves = of("K_N", a, c, own), of("L_N", a, c, own), Edges(u[..., 2], u[..., 3])
+        # M and dM vanish if one edge alone is given; in any case, both are contacts of the body
+        levers = (of("moment", *at, own) / of("load", *at, own) for at in ((a, c), (a_1, c_1)))
+        rows = [alone * lever / (a + c) for lever in levers]
+        for side, one in requested.items():
+            rows.append(np.log(getattr(K_N, side) / one.K_N))
+            rows.append(getattr(moves, side) - one.da / (a + c))
+            if free and one.L_N is not None:
+                rows.append((getattr(L_N, side) - one.L_N) * (a + c) / one.K_N)
+        off = np.stack(np.broadcast_arrays(*rows), -1)
+        return np.where(np.isfinite(off), off, 1e9)
+
+    # h from 1e-9 to 1e6 m, never near 1 m, as steps begin with the length of u
+    axes: list[Any] = [np.arange(-20.5, 14, 0.28), np.linspace(-0.45, 0.45, 7), 0.0, 0.0]
+    axes += [np.linspace(-13.8, 13.8, 37)] if free else []
+    grid: Any = np.stack(np.meshgrid(*axes, indexing="ij"), -1)
+    with np.errstate(all="ignore"):
+        cost = np.sum(residual(grid) ** 2, -1)
+        lowest = (cost == minimum_filter(cost, 3)) & (cost < 1e9)
+        starts = grid[lowest][np.argsort(cost[lowest], kind="stable")[:16]]
+        found = [least_squares(residual, u, xtol=1e-15, ftol=1e-15, gtol=1e-15) for u in starts]
+    met = [one.x for one in found if np.max(np.abs(one.fun)) < MATCH_RTOL]
+    if met:
+        # the widest contact; among equally wide ones the one closest to symmetric
+        ends, own = place(max(met, key=lambda u: (round(u[0], 6), -abs(u[1]))))
+        return [*map(float, ends)], {name: float(value) for name, value in own.items()}
+    near = ""
+    if found:
+        (a, c, a_1, c_1), own = place(min(found, key=lambda one: one.cost).x)
+        (K, K_2), (L, L_2) = of("K_N", a, c, own), of("L_N", a, c, own)
+        near = f"; of the nearest one, left and right, K_N = {K:.6g} and {K_2:.6g}"
+        near += f", da = {a - a_1:.6g} and {c - c_1:.6g}"
+        near += f", L_N = {L:.6g} and {L_2:.6g}" if free else ""
+    raise ValueError(
+        f"no contact{' with M = dM = 0' if alone else ''} has the data requested{near}: use other "
+        f"parameters or another body{'' if alone else ', or match one edge alone'}"
+        f"{f', or give {free} in place of L_N' if free else ''}"
+    )
+
+
+def _shear(module: Any, requested: Mapping[str, Edge], a: float, c: float) -> tuple[float, float]:
+    """dQ and dsigma, of which K_T and L_T are linear functions."""
+    wished = [(module.K_T, side, one.K_T) for side, one in requested.items()]
+    wished += [
+        (module.L_T, side, one.L_T) for side, one in requested.items() if one.L_T is not None
+    ]
+    units = np.eye(2)[: len(wished)]  # K_T and L_T of one edge, or K_T of both
+    rates = [[getattr(of(a, c, *unit), side) for unit in units] for of, side, _ in wished[:2]]
+    dQ, dsigma = np.linalg.solve(rates, [size for *_, size in wished[:2]]) @ units
+    return float(dQ), float(dsigma)
 
 
 def _compared(requested: Mapping[str, Edge], edges: Edges, h: float) -> tuple[Any, Any]:
