@@ -18,6 +18,7 @@
     report         findings                  evidence, errata and remarks in words; JSON
     documents      findings                  Markdown, LaTeX and HTML, by templates
     meanings       four answers of a user    the standard meanings of a paper's letters
+    entries        statement of a display    the entries of a claim, and what it may define
     draft          LaTeX file                a claims file for the user to complete
     accept         claims file               the same file with what a user accepted
     schema         tables of a claims file   typed records, or an error with its place

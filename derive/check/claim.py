@@ -151,6 +151,7 @@ class Claim:
     text       the equation as text, which keeps its form; if it is given in LaTeX, its reading
     at         its file and line, such as claims.toml:42
     symbols    the definitions of the symbols that it uses, as in the file; empty if there is none
+    words      what the file says in words of its symbols and variables
     to_accept  the entry by which the file accepts its reading; empty if it does so or has none
     against    what the claim is compared with, in words
     units      a description of the units that do not fit; empty if they fit
@@ -163,6 +164,7 @@ class Claim:
     text: str = ""
     at: str = ""
     symbols: Mapping[str, str] = field(default_factory=dict)
+    words: Mapping[str, str] = field(default_factory=dict)
     to_accept: str = ""
     against: str = ""
     units: str = ""

@@ -25,7 +25,7 @@ from derive.check.context import (
 )
 from derive.check.declarations import Declarations
 from derive.check.equation import Equation
-from derive.check.mistakes import Collected, reason
+from derive.check.mistakes import Collected, limited, reason
 from derive.check.printed import Reading, may_be_rough, open_reading
 from derive.check.schema import Entry, Place, decoded
 from derive.command.errors import UserError
@@ -56,25 +56,25 @@ class ClaimReader:
 
     def claim(self, number: int, given: Mapping[str, Any], place: Place) -> Claim:
         """Return a claim, which must have a label; `number` counts the claims from 1."""
-        wrong, limit = Collected(), self.declared.limit
+        wrong, seconds = Collected(), self.declared.seconds
         entry = decoded(Entry, given, place, wrong.noted)
         where, says = entry.place or Path(place.file).name, entry.says or entry.label
         claim = Claim(
             with_entries(entry, place=where, says=says),
             text=entry.understood or entry.printed,
             at=f"{Path(place.file).name}:{place.line}" if place.line else "",
-            seconds=limit.seconds,
+            seconds=seconds,
         )
         if wrong.errors:
             self.mistakes += wrong.errors
             why = "; ".join(reason(error, place) for error in wrong.errors)
             return self._unread(number, claim, why)
         try:
-            context = limit.read(
-                place, lambda: self.declared.context(place, entry.body, entry.symbols)
+            context = limited(
+                seconds, place, lambda: self.declared.context(place, entry.body, entry.symbols)
             )
             claim = replace(claim, units=context.mismatch(claim.text, place))
-            made = limit.read(place, lambda: self._claim(number, claim, place, context))
+            made = limited(seconds, place, lambda: self._claim(number, claim, place, context))
         except UserError as error:
             self.mistakes.append(error)
             made = self._unread(number, claim, reason(error, place))
@@ -114,7 +114,7 @@ class ClaimReader:
                     return _unjudged(claim, context, names, why)
             left, relation, right = equation(claim.text, names, may_be_rough(entry, claim.text))
         except UnknownName as error:
-            why = _lacking(unknown(error.given, names) or ["oo"], context.meant)
+            why = self._lacking(unknown(error.given, names) or ["oo"], context.meant)
             return replace(claim, unchecked=why) if claim.text else self._unread(number, claim, why)
         if entry.given is not None:
             context = self._redefined(entry, place, {})
@@ -126,7 +126,7 @@ class ClaimReader:
         through = _through(entry, left, names, place)
         sides = [side.xreplace({left: right}) for side in through] or [left, right]
         if lacking := [n for n in context.symbols if Symbol(n) in free(*sides) & undefined]:
-            return _unjudged(claim, context, names, _lacking(lacking, context.meant))
+            return _unjudged(claim, context, names, self._lacking(lacking, context.meant))
         stated = Equation(
             self.declared,
             entry,
@@ -140,9 +140,20 @@ class ClaimReader:
             through,
             tuple(self._made[label] for label in entry.given or ()),
         )
-        symbols = context.definitions(left, right, *through)
-        made = replace(claim, meant=stated.meant(), symbols=symbols, against=stated.against())
+        symbols, words = context.definitions(left, right, *through)
+        made = replace(claim, meant=stated.meant(), symbols=symbols, words=words)
+        made = replace(made, against=stated.against())
         return made.changed(alone=self._alone(number, claim, place, own)) if entry.given else made
+
+    def _lacking(self, names: list[str], meant: Meant) -> str:
+        """Return the reason why a claim cannot be judged if some symbols have no meaning."""
+        if wrong := next((name for name in names if name in meant.wrong), ""):
+            return f"the symbol {wrong} has no meaning in this claim: {reason(meant.wrong[wrong])}"
+        names = [*dict.fromkeys(meant.missing.get(name, name) for name in names)]
+        have, them = ("symbols {} have", "them") if len(names) > 1 else ("symbol {} has", "it")
+        told = f"the {have.format(', '.join(names))} no meaning"
+        why = self.declared.paper.reasons(names)
+        return f"{told}: define {them} in [symbols] or [variables]{why}"
 
     def _alone(self, number: int, claim: Claim, place: Place, context: Context) -> Claim | None:
         """Return the claim without those given, if it can be judged by the file's own meanings."""
@@ -179,7 +190,8 @@ def _unjudged(claim: Claim, context: Context, names: Names, why: str) -> Claim:
         left, relation, right = equation(claim.text, names, rough=True)
         calls = {call: Symbol(as_text(call)) for call in calls_in(left, right)}
         meant = AsMeant(left.xreplace(calls), right.xreplace(calls), relation)
-        claim = replace(claim, meant=meant, symbols=context.definitions(left, right))
+        symbols, words = context.definitions(left, right)
+        claim = replace(claim, meant=meant, symbols=symbols, words=words)
     return replace(claim, unchecked=why)
 
 
@@ -195,13 +207,3 @@ def _through(entry: Entry, left: Expr, names: Names, place: Place) -> tuple[Expr
     is_right = isinstance(left, Symbol) and is_equation and not is_argument
     place.demand(is_right, why, remedy)
     return first, second
-
-
-def _lacking(names: list[str], meant: Meant) -> str:
-    """Return the reason why a claim cannot be judged if some symbols have no meaning."""
-    if wrong := next((name for name in names if name in meant.wrong), ""):
-        return f"the symbol {wrong} has no meaning in this claim: {reason(meant.wrong[wrong])}"
-    names = [*dict.fromkeys(meant.missing.get(name, name) for name in names)]
-    have, them = ("symbols {} have", "them") if len(names) > 1 else ("symbol {} has", "it")
-    told = have.format(", ".join(names))
-    return f"the {told} no meaning: define {them} in [symbols] or [variables]"

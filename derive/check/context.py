@@ -14,7 +14,7 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
 from derive.check.bodies import ProvenBody, placed
-from derive.check.mistakes import TimeLimit
+from derive.check.mistakes import limited
 from derive.check.schema import Place
 from derive.command.errors import UserError
 from derive.reading.formula import Names, equation, formula
@@ -70,7 +70,9 @@ class Context:
     units      the units of variables and symbols, as far as they are declared
     symbols    the formula of each symbol of the source as text; empty if it has none
     place      the file
+    seconds    the time limit for reading one formula
     own        the symbols of the body's formulas, each with the paper's symbol for it
+    words      what the file says in words of symbols and variables
     """
 
     body: ProvenBody | None
@@ -78,9 +80,10 @@ class Context:
     units: Mapping[Symbol, Dimension]
     symbols: Mapping[str, str]
     place: Place
-    limit: TimeLimit
+    seconds: float
     own: Mapping[Symbol, Symbol] = field(default_factory=dict)
     meant: Meant = field(default_factory=Meant)
+    words: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def sheet(self) -> FormulaSheet | None:
@@ -118,7 +121,7 @@ class Context:
         others = {Symbol(other) for other in self.symbols if other != name}
         names = self.names(place, [other for other in self.symbols if other != name])
         try:
-            found = self.limit.read(place, lambda: formula(text, names))
+            found = limited(self.seconds, place, lambda: formula(text, names))
             for inner in sorted(free(found) & others, key=str):
                 if not self.define(inner.name, (*outer, name)):
                     if inner.name in meant.wrong:
@@ -127,7 +130,7 @@ class Context:
                     return False
             found = with_real_bound(found, others - meant.in_variables.keys())
             written = found.xreplace(meant.as_written)
-            in_variables = self.limit.read(place, lambda: self.substitute(written))
+            in_variables = limited(self.seconds, place, lambda: self.substitute(written))
         except UserError as error:
             meant.wrong[name] = error
             return False
@@ -151,11 +154,15 @@ class Context:
         meant = replace(self.meant, as_written=as_written, in_variables=in_variables)
         return replace(self, meant=meant, symbols={**self.symbols, **formulas})
 
-    def definitions(self, *exprs: Expr) -> dict[str, str]:
-        """Return the definitions of the symbols in expressions, and of those that they use."""
+    def definitions(self, *exprs: Expr) -> tuple[dict[str, str], dict[str, str]]:
+        """Return the formulas, and the words, of names in expressions and of those they use."""
         names = {each.name for each in free(*exprs)}
         names = names.union(*(self.meant.uses.get(name, ()) for name in names))
-        return {name: text for name, text in self.symbols.items() if name in names}
+        symbols, words = (
+            {name: table[name] for name in table if name in names}
+            for table in (self.symbols, self.words)
+        )
+        return symbols, words
 
     def substitute(self, expr: Any) -> Any:
         """Replace the calls of the body's formulas by the proven expressions."""
@@ -231,7 +238,7 @@ class Context:
             return self._known_units.mismatch(left, right)
 
         try:
-            return self.limit.read(place, found) if text else ""
+            return limited(self.seconds, place, found) if text else ""
         except UserError:
             return ""
 

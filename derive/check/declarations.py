@@ -16,7 +16,7 @@ from derive.check.bodies import ProvenBody, body_of
 from derive.check.claim import SCALE, Range
 from derive.check.context import PLACES, Context, Meant
 from derive.check.meanings import NONE, Standard, standard
-from derive.check.mistakes import Collected, TimeLimit
+from derive.check.mistakes import Collected
 from derive.check.schema import (
     Answers,
     ClaimsFile,
@@ -38,7 +38,7 @@ class Declarations:
     """The declarations of a file.
 
     place      the file
-    limit      the time limit for reading one formula
+    seconds    the time limit for reading one formula, and for a verdict
     body       the file's body, or None
     paper      the standard meanings of letters, of which there are none without a table [paper]
     variables  the entries of variables that are declared because of [paper]
@@ -48,14 +48,16 @@ class Declarations:
     ranges     the ranges of variables that have one
     units      the units of variables and symbols, as far as the file declares them
     symbols    the formulas in [symbols] by name, without those that are variables
+    words      what is said in words of variables and symbols
     spellings  the entries of [latex]
     """
 
     def __init__(self, file: ClaimsFile, place: Place, errors: Collected) -> None:
-        self.place, self.limit = place, TimeLimit(file.seconds)
+        self.place, self.seconds = place, file.seconds
         self.body = body_of(file.body, place)  # without it, all else seems wrong
         self.declared, self.ranges = dict[str, Symbol](), dict[Symbol, Range]()
         self.units, self.symbols = dict[Symbol, Dimension](), dict[str, str]()
+        self.words = dict[str, str]()
         self.spellings = file.latex
         self._contexts = dict[tuple[object, ...], Context]()
         self.paper = self._paper(file.paper)
@@ -111,6 +113,7 @@ class Declarations:
             known = self._variables(self.body).get(name, known)
         symbol = self.declared[name] = known
         self._add_unit(symbol, entry.unit, place)
+        self.words |= {name: entry.meaning} if entry.meaning else {}
         if span is not SCALE or name in PLACES:
             self.ranges[symbol] = span
 
@@ -120,6 +123,7 @@ class Declarations:
         demand_name(name, place)
         entry = decoded(DefinedSymbol, said if isinstance(said, dict) else {"is": said}, place)
         formula = text_of(entry)
+        self.words |= {name: entry.meaning} if entry.meaning else {}
         own = _by_name(self._own(self.body)) if self.body else {}
         taken = {**own, **self.declared}
         symbol = taken.get(name, Symbol(name))
@@ -167,7 +171,15 @@ class Declarations:
             known = self.context(place, given).meant.without(own) if own else Meant()
             own_symbols = self._own(body)
             made = Context(
-                body, variables, units, symbols, self.place, self.limit, own_symbols, known
+                body,
+                variables,
+                units,
+                symbols,
+                self.place,
+                self.seconds,
+                own_symbols,
+                known,
+                self.words,
             )
             for name in made.symbols:
                 made.define(name)

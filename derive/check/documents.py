@@ -18,7 +18,6 @@ from derive.check.claim import Paper, Verdict
 from derive.check.draw import along, has_integral, is_allowed
 from derive.check.judge import Sides
 from derive.check.verdict import Finding
-from derive.sheet.notation import latex_name
 from derive.sheet.page import templates
 
 _HIDDEN = re.compile(r"\\(?:label|tag\*?)\s*\{[^{}]*\}|\\(?:nonumber|notag)(?![A-Za-z])")
@@ -60,7 +59,6 @@ def _template(name: str) -> jinja2.Template:
     made.filters |= {
         "code": _as_code,
         "curves": _curves,
-        "symbol": latex_name,
         "typeset": _typeset,
         "verbatim": Markup,
     }

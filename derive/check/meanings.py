@@ -77,6 +77,7 @@ is l, d[P]_d[a] is dP_dl.  `left` and `right`, or both as `edges`, are the ends 
 likewise those of the stick zone.  `stick_pressure` is that of the stick zone, zero beside it."""
 _RANGES: dict[str, dict[str, Any]] = {"nu": {"low": 0, "high": 0.5}, "kappa": {"low": 1, "high": 3}}
 _STICK = {"even": ("m", "m"), "uneven": ("m", "n"), "eccentric": ("d - e", "d + e")}
+_ENDS = {"even": "its half-width alone", "uneven": "its two ends", "eccentric": "d and e"}
 _CONSTANTS = {"E", "mu"}
 
 
@@ -111,12 +112,19 @@ class Standard:
     variables   these variables and parameters, as entries of [variables]
     symbols     the other names of the paper, as entries of [symbols]
     conditions  what is true of the variables in every claim
+    absent      the names that have a standard meaning for other answers, with the reason why not
     """
 
     letters: Mapping[str, str]
     variables: Mapping[str, dict[str, Any]] = field(default_factory=dict)
     symbols: Mapping[str, dict[str, Any]] = field(default_factory=dict)
     conditions: tuple[str, ...] = ()
+    absent: Mapping[str, str] = field(default_factory=dict)
+
+    def reasons(self, names: Iterable[str]) -> str:
+        """Say of those names that could have a standard meaning why they have none."""
+        told = ((name, self.absent[name]) for name in names if name in self.absent)
+        return "".join(f"; {name} has no standard meaning, because {why}" for name, why in told)
 
     def of(self, names: Collection[str], given: Iterable[str] = ()) -> dict[str, dict[str, Any]]:
         """Return the entries of those names that have a standard meaning, also p_at_b for p(b).
@@ -159,7 +167,7 @@ def standard(answers: Answers, geometry: Geometry, place: Place) -> Standard:
     ends |= {"left": edges[0], "right": edges[1], "stick_left": stick[0], "stick_right": stick[1]}
     variables, symbols = dict[str, dict[str, Any]](), dict[str, dict[str, Any]]()
     for ours, row in rows.items():
-        name = names.get(ours) or _replaced(r"\[(\w+)\]", names, row.pattern)
+        name = names.get(ours) or _replaced(_PARTS, names, row.pattern)
         entry = {"meaning": row.meaning, "unit": row.unit}
         if not row.formula:
             variables[name] = entry | _RANGES.get(ours, {})
@@ -168,7 +176,26 @@ def standard(answers: Answers, geometry: Geometry, place: Place) -> Standard:
             symbols[name] = entry | {"is": re.sub(r"(?<!\w)\((\w+)\)", r"\1", formula)}
     within = {f"{end} < {edge}" for end, edge in zip(stick, edges, strict=True)}
     conditions = tuple(_replaced(_WORD, letters, each) for each in sorted(within))
-    return Standard(letters, variables, symbols, conditions)
+    known = {*rows, *names.values(), *variables, *symbols}
+    absent = {
+        name: _because(row.cases - cases, zone, answers.modulus)
+        for row in sorted(_ROWS, key=lambda row: -len(row.cases - cases))
+        if row.letter not in known and (name := _replaced(_PARTS, names, row.pattern)) not in known
+    }
+    return Standard(letters, variables, symbols, conditions, absent)
+
+
+def _because(missing: Collection[str], zone: str, modulus: str) -> str:
+    """Return the reason why the cases of a row do not apply."""
+    why = {
+        "symmetric": "the contact is not symmetric",
+        "general": "the contact is symmetric",
+        "hertz": "the body is not hertz",
+        "nu": f"the elastic constants are {modulus}",
+        "kappa": f"the elastic constants are {modulus}",
+    }
+    ends = f"the stick zone is given by {_ENDS[zone]}"
+    return next((why[case] for case in why if case in missing), ends)
 
 
 def _zone(answers: Answers) -> str:
@@ -190,6 +217,7 @@ def _demand_clear(names: Mapping[str, str], known: Collection[str], place: Place
         place.demand(not others, why, f"also give the paper's letter for {ours}: {ours} = ...")
 
 
+_PARTS = r"\[(\w+)\]"
 _WORD = r"\b([A-Za-z]\w*)\b(?!\()"
 """A name that is not called."""
 

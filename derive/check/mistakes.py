@@ -54,26 +54,20 @@ class Collected:
             raise self.errors[0]
 
 
-@dataclass(frozen=True)
-class TimeLimit:
-    """The time limit for reading one formula, in seconds."""
-
-    seconds: float
-
-    def read(self, place: Place, read: Callable[[], Read]) -> Read:
-        """Return the result of `read`; raise BadClaimsFile if it fails or takes too long."""
-        try:
-            with within(self.seconds):
-                return read()
-        except UserError:
-            raise
-        except LimitReached:
-            why = f"it could not be read within {self.seconds:g} s"
-            remedy = "simplify it, or increase `seconds`"
-        except Exception as error:  # an error in SymPy must not stop the other claims
-            why = f"it could not be read: an error in the algebra ({type(error).__name__})"
-            remedy = "write it in another form"
-        raise place.bad(why, remedy)
+def limited(seconds: float, place: Place, read: Callable[[], Read]) -> Read:
+    """Return the result of `read`; raise BadClaimsFile if it fails or takes too long."""
+    try:
+        with within(seconds):
+            return read()
+    except UserError:
+        raise
+    except LimitReached:
+        why = f"it could not be read within {seconds:g} s"
+        remedy = "simplify it, or increase `seconds`"
+    except Exception as error:  # an error in SymPy must not stop the other claims
+        why = f"it could not be read: an error in the algebra ({type(error).__name__})"
+        remedy = "write it in another form"
+    raise place.bad(why, remedy)
 
 
 def reason(error: UserError, place: Place | None = None) -> str:

@@ -28,6 +28,8 @@ _SENSES = {
     Verdict.CONVENTION: "the opposite sign",
     Verdict.FAILS: "neither",
 }
+_MEANINGS = "The meanings used, and the number of claims that use them"
+_SIGNS_OF = "Signs, section by section"
 _SHOWN = 6
 """The number of points that an explanation shows."""
 
@@ -102,7 +104,7 @@ def explanation(finding: Finding) -> list[Told]:
         Told("compared with", [claim.against]),
         Told("steps", entry.steps),
         Told("symbols", _meanings(claim)),
-        Told("verdict", [str(finding.verdict), *lines_of(finding.judged.why), finding.partly]),
+        Told("verdict", [verdict(finding), *lines_of(finding.judged.why), finding.partly]),
         Told("rests on", [finding.rests_on]),
         Told("step", lines_of(finding.step)),
         Told("units", [claim.units]),
@@ -121,9 +123,11 @@ def _meanings(claim: Claim) -> list[str]:
     used = {s: e for s, e in meant.meaning.items() if s in held}
     found: dict[str, str] = {s.name: text_of(typed(e)) for s, e in used.items()}
     told = list[str]()
-    for name in dict.fromkeys([*found, *claim.symbols]):
+    for name in dict.fromkeys([*found, *claim.symbols, *claim.words]):
         both = dict.fromkeys(filter(None, (claim.symbols.get(name), found.get(name))))
-        told.append(" = ".join((name, *both)) if both else f"{name} has no meaning yet")
+        is_open = name in claim.symbols and not both
+        line = f"{name} has no meaning yet" if is_open else " = ".join((name, *both))
+        told.append(f"{line}, {claim.words[name]}" if name in claim.words else line)
     return told
 
 
@@ -140,6 +144,14 @@ def evidence(finding: Finding) -> str:
     ]
     rests_on = f"rests on {finding.rests_on}" if finding.rests_on else ""
     return "; ".join(filter(None, [*parts, rests_on, finding.step]))
+
+
+def verdict(finding: Finding) -> str:
+    """Return the verdict, with what is unexpected about it."""
+    is_unexpected = finding.claim.entry.expected and not finding.as_expected
+    notes = ("units do not fit",) * bool(finding.claim.units)
+    notes += ("not as expected",) * bool(is_unexpected)
+    return f"{finding.verdict} ({', '.join(notes)})" if notes else str(finding.verdict)
 
 
 def _convention(finding: Finding) -> list[str]:
@@ -188,9 +200,9 @@ class Coverage(StrEnum):
     FAILED = "failed"
     CONVENTION = "true with another convention"
     UNSOUND = "held from claims that are not shown to be true"
+    NOT_READ = "not read"
     UNCHECKED = "unchecked"
     TO_ACCEPT = "to be accepted"
-    NOT_READ = "not read"
     BODY = f"held from {Basis.BODY}"
     BOTH = f"held from {Basis.BOTH}"
     DEFINITIONS = f"held from {Basis.DEFINITIONS}"
@@ -204,8 +216,11 @@ class Coverage(StrEnum):
 
 
 def covered(finding: Finding) -> Coverage:
-    """Return how far one claim is covered."""
-    claim = finding.claim
+    """Return how far one claim is covered.
+
+    A claim of a draft is not read if the draft says why it, or a part of it, could not be read.
+    """
+    claim, entry = finding.claim, finding.claim.entry
     if finding.verdict == Verdict.FAILS:
         return Coverage.FAILED
     if finding.verdict == Verdict.CONVENTION:
@@ -216,7 +231,8 @@ def covered(finding: Finding) -> Coverage:
         return Coverage[(finding.basis or claim.meant.basis).name]
     if claim.to_accept:
         return Coverage.TO_ACCEPT
-    return Coverage.NOT_READ if claim.entry.latex and not claim.text else Coverage.UNCHECKED
+    is_read = claim.text and (entry.accepted or not entry.unchecked)
+    return Coverage.NOT_READ if entry.latex and not is_read else Coverage.UNCHECKED
 
 
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
@@ -239,10 +255,26 @@ def coverage(findings: Iterable[Finding]) -> str:
     return f"{len(worst)} {'equation' if len(worst) == 1 else 'equations'}: {counts}"
 
 
-def definitions(findings: Iterable[Finding]) -> list[tuple[str, str, int]]:
-    """Return each symbol that is used, its definition, and the number of claims that use it so."""
-    used = Counter(each for finding in findings for each in finding.claim.symbols.items())
-    return [(name, text or "no meaning yet", n) for (name, text), n in sorted(used.items())]
+def lists(paper: Paper, findings: Sequence[Finding]) -> dict[str, list[str]]:
+    """Return the lists of a document that are not empty, by their headings."""
+    told = {_MEANINGS: definitions(findings), _SIGNS_OF: signs(paper, findings)}
+    return {heading: lines for heading, lines in told.items() if lines}
+
+
+def definitions(findings: Iterable[Finding]) -> list[str]:
+    """Describe the symbols that are used, and the variables that the file says something of.
+
+    Each line has the number of claims that use a definition.
+    """
+    used = Counter(
+        (name, claim.symbols.get(name, "a variable"), claim.words.get(name, ""))
+        for claim in (finding.claim for finding in findings)
+        for name in {**claim.symbols, **claim.words}
+    )
+    return [
+        f"{name}: {', '.join(filter(None, (text or 'no meaning yet', words)))} ({count})"
+        for (name, text, words), count in sorted(used.items())
+    ]
 
 
 def summary(findings: Sequence[Finding]) -> str:
@@ -302,6 +334,7 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
             "rests_on": finding.basis,
             "coverage": covered(finding),
             "symbols": finding.claim.symbols,
+            "meanings": finding.claim.words,
             "given": {each.claim.entry.label: str(each.verdict) for each in finding.given},
             "error_enters_at": [claim.entry.label for claim in finding.error_enters_at],
             "printed": printed(finding.claim),

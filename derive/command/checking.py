@@ -1,6 +1,7 @@
 """What `derive check` does before it judges claims: drafts, readings, and the choice of claims."""
 
 import re
+import sys
 from collections.abc import Mapping
 from dataclasses import replace
 from difflib import get_close_matches
@@ -12,11 +13,12 @@ import click
 from derive.body.library import library, load_geometry
 from derive.check.accept import accept, demand_writable
 from derive.check.claim import Paper
-from derive.check.draft import demand_new, draft_claims, write
+from derive.check.draft import draft_claims
 from derive.check.meanings import NONE, Standard, standard
 from derive.check.schema import MODULI, Answers, Place, decoded
 from derive.check.userfile import built_in, read_claims, reader_of
 from derive.command.errors import UserError
+from derive.command.files import demand_page, put_page
 from derive.command.options import parse_name_values
 from derive.command.terminal import command, folded, path_of, status, typed
 
@@ -28,11 +30,11 @@ def write_draft(file: Path | None, new: Path, inline: bool) -> None:
     """Read the displayed equations of a paper and write them as claims."""
     if file is None:
         raise click.UsageError("--draft reads a paper: give FILE, in LaTeX")
-    demand_new(new)
+    demand_page(new, "--draft", mark=None)
     answers, meanings = _answers()
     with status("reading the displayed equations"):
         made = draft_claims(file, inline, answers, meanings)
-    write(made, new)
+    put_page(made.text(), new, "--draft", mark=None)
     click.echo(f"{made.environments} displayed equations with {len(made.claims)} statements")
     click.echo(f"Wrote {path_of(new.absolute())}: {made.understood} statements read")
     meant, left = made.meant(), made.open()
@@ -45,11 +47,10 @@ def write_draft(file: Path | None, new: Path, inline: bool) -> None:
     if not answers:
         click.echo(f"Next, answer the four questions at the top of {path_of(new.absolute())}")
     elif left:
-        click.echo(f"Next, give meanings in [symbols] or [variables] to {', '.join(left)}")
-    for line in made.told("unchecked"):
+        why = meanings.reasons(left)
+        click.echo(f"Next, give meanings in [symbols] or [variables] to {', '.join(left)}{why}")
+    for line in made.unread:
         click.echo(f"not read: {line}")
-    for line in made.told("note"):
-        click.echo(f"note: {line}")
 
 
 def _answers() -> tuple[tuple[str, dict[str, Any]] | tuple[()], Standard]:
@@ -66,22 +67,42 @@ def _answers() -> tuple[tuple[str, dict[str, Any]] | tuple[()], Standard]:
 
     try:
         click.echo("Four answers fill in the standard meanings of the paper's letters.")
-        bodies, constants = click.Choice(["none", *library()]), click.Choice(MODULI)
-        body = click.prompt("1. Body, or none to fill in the file by hand", "none", type=bodies)
+        bodies = ["none", *library()]
+        asked = f"1. Body, or none to fill in the file by hand ({', '.join(bodies)})"
+        body = _answer(asked, click.Choice(bodies), "none")
         if body == "none":
             return (), NONE
-        paper: dict[str, Any] = {"symmetric": click.confirm("2. Symmetric contact?", None)}
-        paper["modulus"] = click.prompt("3. Elastic constants", "E_star", type=constants)
-        ours = meanings("")
-        entries = {**ours.variables, **ours.symbols}.items()
-        told = "; ".join(f"{letter}, {entry['meaning']}" for letter, entry in entries)
-        click.echo(folded(f"Our letters: {told}"))
-        click.echo("A stick zone off the middle has d and e in place of m, or the ends m and n.")
+        paper: dict[str, Any] = {"symmetric": _answer("2. Symmetric contact? (y, n)", click.BOOL)}
+        asked = f"3. Elastic constants ({'; '.join(MODULI)})"
+        paper["modulus"] = _answer(asked, click.Choice(MODULI), "E_star")
+        ours, others = (_told(meanings(letters)) for letters in ("", "n = n"))
+        click.echo(folded(f"Our letters: {'; '.join(ours)}"))
+        if off := [each for each in others if each not in ours]:
+            where = "If the stick zone is off the middle, by its ends or by d and e"
+            click.echo(folded(f"{where}: {'; '.join(off)}"))
         asked = r"4. Letters of the paper that differ, such as m = b, f = \mu"
-        chosen = click.prompt(asked, "", show_default=False, value_proc=meanings)
+        chosen = _answer(asked, meanings, "")
     except click.Abort:
         return (), NONE
     return (body, paper), chosen
+
+
+def _told(ours: Standard) -> list[str]:
+    """Our letters with their meanings."""
+    entries = {**ours.variables, **ours.symbols}.items()
+    return [f"{letter}, {entry['meaning']}" for letter, entry in entries]
+
+
+def _answer(question: str, kind: Any, default: str | None = None) -> Any:
+    """Ask until the answer is of its kind; what does not come from a terminal is shown."""
+
+    def converted(text: str) -> Any:
+        if not sys.stdin.isatty():
+            click.echo(text)
+        return click.types.convert_type(kind)(text)
+
+    shown = bool(default)
+    return click.prompt(question, default, value_proc=converted, show_default=shown)
 
 
 def accept_readings(file: Path | None, label: str | None) -> None:
@@ -126,7 +147,7 @@ def _ask(question: str, shown: Mapping[str, Mapping[str, str]], accepted: list[s
         for key, text in texts.items():
             click.echo(f"  {key:<11} {text}")
         if answer != "all":
-            answer = str(click.prompt(f"{question} (y, n, all, q)", default="n")).strip().lower()
+            answer = _answer(f"{question} (y, n, all, q)", str, "n").strip().lower()
         if answer == "q":
             raise click.Abort
         if answer in ("y", "all"):
@@ -147,7 +168,8 @@ def next_steps(file: Path, paper: Paper) -> list[str]:
     if reader.declared.paper is NONE:
         told.append("Answer the four questions at the top of the file: body and the table [paper].")
     if left := [name for name, formula in reader.declared.symbols.items() if not formula]:
-        told.append(f"Give meanings in [symbols] or [variables] to {', '.join(left)}.")
+        why = reader.declared.paper.reasons(left)
+        told.append(f"Give meanings in [symbols] or [variables] to {', '.join(left)}{why}.")
     return [*told, f"Then accept the readings: {command()} check {typed(file)} --accept"]
 
 

@@ -151,8 +151,8 @@ class BadOption(UserError):
 
 
 class BadTarget(UserError):
-    """{given} {why}; nothing was written: a path is written only if it does not exist or was made
-    by `derive`; choose another path with {option}"""
+    """{given} {why}; nothing was written: a path is written only if it does not exist or holds a
+    page, table or package made by `derive`; choose another path with {option}"""
 
     option = "--out"
 

@@ -160,8 +160,6 @@ def place_of_geometry(name: str, out: Path | None) -> Path:
     folder = out if out is not None else Path()
     with refused(folder):
         path = folder if folder.suffix == ".py" and not folder.is_dir() else folder / f"{name}.py"
-        if not path.parent.is_dir():
-            raise BadTarget(str(path.parent), "is not a directory")
     demand_page(path, mark=None)
     return path
 
@@ -176,7 +174,6 @@ def put_page(text: str, path: Path, option: str = "--out", mark: str | None = MA
     """
     demand_page(path, option, mark)
     with refused(path, option):
-        path.parent.mkdir(parents=True, exist_ok=True)
         (write_new if mark is None else write_whole)(text.encode(), path)
 
 
@@ -184,10 +181,13 @@ def demand_page(path: Path, option: str = "--out", mark: str | None = MARK) -> N
     """Raise BadTarget if `put_page` would not write this path; call this before a long task."""
     with refused(path, option):
         demand_writable(path)
-    if path.is_dir():
-        raise BadTarget(str(path), "is a directory", option)
+        if not path.parent.is_dir():
+            raise BadTarget(str(path.parent), "is not a directory", option)
+        if path.is_dir():
+            raise BadTarget(str(path), "is a directory", option)
     if os.path.lexists(path) and not _has_mark(path, mark):
-        raise BadTarget(str(path), "exists and was not made by `derive`", option)
+        why = "exists and was not made by `derive`" if mark else "already exists"
+        raise BadTarget(str(path), why, option)
 
 
 def _has_mark(path: Path, mark: str | None) -> bool:

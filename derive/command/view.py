@@ -133,10 +133,11 @@ def checked(findings: "Sequence[Finding]") -> Group:
 
 
 def _verdict_of(finding: "Finding") -> Text:
-    verdict = Text(str(finding.verdict), style=_VERDICTS[finding.verdict])
-    if finding.claim.entry.expected and not finding.as_expected:
-        verdict.append(" (not as expected)", style="bold red")
-    return verdict
+    from derive.check import report
+
+    told = Text(report.verdict(finding), style=_VERDICTS[finding.verdict])
+    told.highlight_words(["units do not fit", "not as expected"], "bold red")
+    return told
 
 
 def explained(findings: "Sequence[Finding]") -> Group:

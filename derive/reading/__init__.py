@@ -13,7 +13,7 @@
     units                                   units and dimensions of expressions
                                             the term of an equation whose units do not fit;
                                             the unit of each parameter, because g is a length
-    displays   LaTeX file                   its displays, numbered as LaTeX numbers them
+    displays   LaTeX file                   its title, and its displays, numbered as LaTeX does
     lexer      LaTeX                        tokens: the only place that knows how things are spelled
     statements tokens of a display          its equations, each with its condition
     substitution                            the angle that an equation introduces

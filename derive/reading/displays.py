@@ -42,6 +42,10 @@ _DEFINES = re.compile(
     re.IGNORECASE,
 )
 """Words before a formula in the text that make it a definition."""
+_WHERE = re.compile(r"\bwhere\W(?:[^.$\\]|\\[ ,])*$", re.IGNORECASE)
+"""The same before a display."""
+_MATRIX = re.compile(r"\\begin\s*\{\w*(?:matrix|array)\}")
+_TITLE = re.compile(r"\\title\s*(?:\[[^]]*\])?\s*(?=\{)")
 _RELATION = r"(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))"
 
 
@@ -49,30 +53,35 @@ _RELATION = r"(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))"
 class Display:
     """One display, or those rows of a display that belong together.
 
-    number  the printed number without parentheses; empty if there is none
-    labels  the arguments of \\label, in order
-    line    the line of the file, counted from 1
-    latex   the source, without comments and with macros expanded
+    number      the printed number without parentheses; empty if there is none
+    labels      the arguments of \\label, in order
+    line        the line of the file, counted from 1
+    latex       the source, without comments and with macros expanded
+    is_defined  whether a word such as "where" stands before it
+    is_aside    whether it is such a definition in the text, and no claim
     """
 
     number: str
     labels: tuple[str, ...]
     line: int
     latex: str
+    is_defined: bool = False
+    is_aside: bool = False
 
 
 @dataclass(frozen=True)
 class Source:
     """The content of a LaTeX file.
 
-    found         the displays, and the relations in the text if they were requested
-    definitions   otherwise, those relations in the text that follow a word such as "where"
+    found         the displays, tables and matrices; of the relations in the text all if they were
+                  requested, and otherwise those that follow a word such as "where"
     environments  the number of displays
+    title         the title as plain text; empty if there is none
     """
 
     found: list[Display]
-    definitions: list[Display]
     environments: int
+    title: str
 
 
 @dataclass
@@ -101,35 +110,51 @@ def displays(path: Path, inline: bool = False) -> Source:
     start = max(text.find(r"\begin{document}"), 0)
     macros, found, between, count = _macros(text[:start]), list[Display](), text, 0
 
-    def made(latex: str, at: int, number: str = "") -> Display:
+    def made(latex: str, at: int, number: str = "", **kind: bool) -> Display:
         line, labels = text.count("\n", 0, at) + 1, tuple(LABEL.findall(latex))
-        return Display(number, labels, line, _expanded(latex, macros).strip())
+        return Display(number, labels, line, _expanded(latex, macros).strip(), **kind)
+
+    def words_before(at: int) -> str:
+        return between[max(at - _NEAR, start) : at]
 
     for (before, at, end, after), kind, numbers in _bodies(str(path), text, start):
         if kind.rstrip("*") in _TABLES:
             if re.search(r"\d", text[at:end]):
                 found.append(made(text[before:after], before))
             continue
-        between, count = between[:before] + " " * (after - before) + between[after:], count + 1
+        is_defined, count = bool(_WHERE.search(words_before(before))), count + 1
+        between = between[:before] + " " * (after - before) + between[after:]
         if count > _MOST:
             why = f"the file has more than {_MOST} displays"
             raise BadClaimsFile(str(path), why, "split it into smaller files")
         for rows in _groups(text[at:end], kind):
             printed = (numbers.of(row, kind.endswith("*")) for row in rows)
             latex = "".join(rows).removesuffix(r"\\")
-            found.append(made(latex, at, ", ".join(filter(None, printed))))
+            number = ", ".join(filter(None, printed))
+            found.append(made(latex, at, number, is_defined=is_defined))
             at += len("".join(rows))
-    definitions = list[Display]()
+    relations = list[Display]()
     for each in _INLINE.finditer(between, start):
-        latex, words = each[1] or each[2], between[max(each.start() - _NEAR, start) : each.start()]
+        latex = each[1] or each[2]
         is_relation = re.search(rf"[^\s{{(]\s*{_RELATION}\s*[^\s}})]", latex)
-        if is_relation and len(latex) < _LONGEST_LINE:
-            if inline:
-                found.append(made(latex, each.start()))
-            elif _DEFINES.search(words):
-                definitions.append(made(latex, each.start()))
-    found = sorted(found, key=lambda each: each.line)[: _MOST if inline else None]
-    return Source(found, definitions[:_MOST], count)
+        is_short, is_matrix = len(latex) < _LONGEST_LINE, bool(_MATRIX.search(latex))
+        is_defined = bool(_DEFINES.search(words_before(each.start())))
+        if is_matrix or (is_relation and is_short and (inline or is_defined)):
+            is_aside = not (inline or is_matrix)
+            relations.append(made(latex, each.start(), is_defined=is_defined, is_aside=is_aside))
+    found += relations[: max(_MOST - len(found), 0)]
+    found.sort(key=lambda each: each.line)
+    return Source(found, count, _title(text, macros))
+
+
+def _title(text: str, macros: Mapping[str, tuple[int, str]]) -> str:
+    """Return the title of a paper without its commands, or an empty text."""
+    if not (found := _TITLE.search(text)):
+        return ""
+    latex = _expanded(text[found.end() + 1 : _closed(text, found.end()) - 1], macros)
+    latex = re.sub(r"\\(?:thanks|footnote)\s*\{[^{}]*\}", "", latex)
+    latex = re.sub(r"\\([&%#_$])|\\\\|~", lambda each: each[1] or " ", latex)
+    return " ".join(re.sub(r"\\[A-Za-z]+\*?|\\.|[{}$]", "", latex).split())
 
 
 def _text(path: Path) -> str:

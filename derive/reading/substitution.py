@@ -1,4 +1,4 @@
-"""Recognise an equation that introduces an angle for a position, such as x = b sin(phi)."""
+"""Recognise an equation that introduces an angle, such as sin(phi) = x/b or x = b sin(phi)."""
 
 from sympy import Expr, Symbol
 from sympy.functions.elementary.hyperbolic import HyperbolicFunction
@@ -14,13 +14,15 @@ def substitution(left: Expr, right: Expr) -> tuple[Symbol, Expr] | None:
 
     The result is None for any other equation.
     """
-    if not isinstance(left, Symbol) or left.name not in _POSITIONS:
-        return None
-    for function in right.atoms(TrigonometricFunction, HyperbolicFunction):
-        angle = function.args[0]
-        shift, term = right.as_independent(angle, as_Add=True)
+    is_turned = isinstance(left, Symbol)
+    if is_turned:
+        left, right = right, left
+    is_position = isinstance(right, Symbol) and right.name in _POSITIONS and not left.has(right)
+    for function in left.atoms(TrigonometricFunction, HyperbolicFunction):
+        angle, inverse = function.args[0], FUNCTIONS.get(f"a{function.func.__name__}")
+        shift, term = left.as_independent(angle, as_Add=True)
         factor, last = term.as_independent(angle, as_Add=False)
-        if isinstance(angle, Symbol) and last == function and not right.has(left):
-            inverse = FUNCTIONS[f"a{function.func.__name__}"].of_sympy
-            return angle, inverse((left - shift) / factor)
+        is_alone = isinstance(angle, Symbol) and last == function and not right.has(angle)
+        if inverse and is_alone and (is_position or (left == function and not is_turned)):
+            return angle, inverse.of_sympy((right - shift) / factor)
     return None

@@ -245,7 +245,7 @@ def test_the_page_holds_every_claim(tmp_path: Path) -> None:
 
 # The worse of two claims of one equation counts.  (1) is from the body, (2) by definition,
 # (3) from (2), (4) false, (5) and (6) without a meaning, one claim of (7) is not accepted yet, and
-# (8) is a table, which was not read.
+# (8), a table, and the condition of (9) were not read.
 COVERED = """
 [[claims]]
 label = "(1)"
@@ -281,6 +281,12 @@ label = "(8)"
 place = "table 1, paper.tex:90"
 latex = 'a_1 & <b>0.3</b>'
 unchecked = "a table is not read"
+[[claims]]
+label = "(9)"
+latex = 'P = p_0, \\quad b \\ll a'
+understood = "P = p_0"
+accepted = false
+unchecked = "its condition was not read"
 [latex]
 "E^*" = "E_star"
 """
@@ -292,8 +298,8 @@ def test_every_form_counts_the_same_equations(tmp_path: Path) -> None:
     before = (HEAD + COVERED).partition('label = "(7a)"')[0]
     line_of_7 = before.count("\n")  # the line of its head, [[claims]]
     line = (
-        "8 equations: 1 held from the body, 1 held from your definitions, 1 held from given claims,"
-        " 1 failed, 2 unchecked, 1 to be accepted, 1 not read"
+        "9 equations: 1 held from the body, 1 held from your definitions, 1 held from given claims,"
+        " 1 failed, 2 not read, 2 unchecked, 1 to be accepted"
     )
     for form in ("table", "markdown", "latex", "html"):
         document = asking.run(path, "--format", form).stdout
@@ -301,15 +307,38 @@ def test_every_form_counts_the_same_equations(tmp_path: Path) -> None:
         assert "a table is not read" in document
         assert form == "table" or "table 1, paper.tex:90" in document
         assert "<b>0.3" not in document or form in ("latex", "markdown")
-        at = [document.index(part) for part in ("(4)", "(6)", "(8)", "(1)", "(3)")]
+        at = [document.index(part) for part in ("(4)", "(8)", "(6)", "(1)", "(3)")]
         assert at == sorted(at)
         for part in ("E has no meaning yet", f"claims.toml:{line_of_7}: accepted = true"):
             assert form == "table" or part in document
     told = {each["label"]: each for each in asking.told(tmp_path, HEAD + COVERED)}
-    assert list(told) == ["(1)", "(2)", "(3)", "(4)", "(5)", "(6)", "(7a)", "(7b)", "(8)"]
+    assert list(told) == ["(1)", "(2)", "(3)", "(4)", "(5)", "(6)", "(7a)", "(7b)", "(8)", "(9)"]
     assert told["(8)"]["coverage"] == "not read"
     assert told["(7a)"]["coverage"] == "to be accepted"
     assert told["(2)"]["symbols"] == {"P": "load(a, a)", "p_0": "2*P/(pi*a)"}
+
+
+# P is a load, but k is a length; both sides are the same by definition.
+WORDS = """
+[[claims]]
+label = "it"
+printed = "k = P/2"
+"""
+
+
+@pytest.mark.parametrize("form", ["table", "markdown", "latex", "html", "explain"])
+def test_words_of_the_user_are_kept_and_units_that_do_not_fit_are_told(
+    tmp_path: Path, form: str
+) -> None:
+    own = 'k = { is = "P/2", unit = "m", meaning = "half of the load" }\n'
+    path = asking.written(tmp_path, HEAD + own + WORDS)
+    asked = ("--explain", "it") if form == "explain" else ("--format", form)
+    document = asking.run(path, *asked).stdout
+    assert "by definition (units do not fit)" in document
+    assert form == "table" or ("half of the load" in document and "half-width" in document)
+    (it,) = asking.told(tmp_path, HEAD + own + WORDS)
+    assert it["meanings"] == {"a": "half-width", "k": "half of the load"}
+    assert it["verdict"] == "by definition" and it["units"]
 
 
 @pytest.mark.parametrize(

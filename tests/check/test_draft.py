@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 PAPER = r"""
 \documentclass{article}
 \newcommand{\dif}{\mathrm{d}}
-\begin{document}
+\title[Short]{On $E^*$,\\\emph{\& more}\thanks{To all.}}\begin{document}
 % \begin{equation} a = 1 \end{equation}
 \begin{equation}\label{law}
 P = \int_{-a}^{a} p(x)\,\dif x = \frac{a^2 \pi E^*}{4 R}\;\text{,}
@@ -64,6 +64,7 @@ def test_a_draft_says_what_was_read_and_judges_nothing(tmp_path: Path) -> None:
     assert done.exit_code == 0, done.output
     assert "eq. (5), paper.tex" in done.output
     data = tomllib.loads(new.read_text())
+    assert data["title"] == "On E^*, & more"
     claims = {claim["label"]: claim for claim in data["claims"]}
     assert claims["law/1"]["understood"] == "P = integral(p_at_x, x, -a, a)"
     assert claims["law/2"]["accepted"] is False

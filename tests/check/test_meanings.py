@@ -1,7 +1,9 @@
 """Four answers give the letters of a paper their standard meanings, in the letters of the paper."""
 
+import sys
 import tomllib
 from pathlib import Path
+from subprocess import run as run_process
 
 import pytest
 
@@ -117,6 +119,27 @@ def test_a_line_of_the_user_beats_the_standard_meaning(
 
 
 @pytest.mark.parametrize(
+    ("answers", "name", "why"),
+    [
+        ("symmetric = true", "M", "the contact is symmetric"),
+        ("symmetric = true\nletters = { a = 'l' }", "K_N_l", "the contact is symmetric"),
+        ("symmetric = false", "K_N", "the contact is not symmetric"),
+        ("symmetric = true", "sigma", "the stick zone is given by its half-width alone"),
+        ("symmetric = true\nletters = { d = 'd' }", "n", ""),
+        ("symmetric = true", "nu", "the elastic constants are E_star"),
+        ("symmetric = true\nmodulus = 'E and nu'", "mu", "the elastic constants are E and nu"),
+        ("symmetric = true", "h", ""),
+    ],
+)
+def test_why_a_letter_has_no_standard_meaning(
+    answers: str, name: str, why: str, tmp_path: Path
+) -> None:
+    (it,) = told(tmp_path, f"body = 'hertz'\n[paper]\n{answers}\n{claim(f'{name} = 1')}")
+    is_told = f"; {name} has no standard meaning, because {why}" in it["reason"]
+    assert is_told == bool(why), it["reason"]
+
+
+@pytest.mark.parametrize(
     ("printed", "require", "verdict"),
     [
         ("q_at_x = f*p_at_x", "m < x < a", "numerical"),
@@ -215,12 +238,28 @@ def test_an_unanswered_draft_says_what_to_do(tmp_path: Path) -> None:
 
 
 def test_a_wrong_answer_is_asked_again(tmp_path: Path) -> None:
+    """Each question, and each answer that does not come from a terminal, stands in a line."""
     paper, new = written(tmp_path, PAPER, "paper.tex"), tmp_path / "new.toml"
     answers = "cone\nhertz\nmaybe\nn\nG\nE_star\nm = a\nm = k, n = l\n"
-    output = run(paper, "--draft", new, answers=answers).output
+    command = [sys.executable, "-m", "derive", "check", str(paper), "--draft", str(new)]
+    output = run_process(command, input=answers, capture_output=True, text=True, check=True).stdout
     assert "'cone' is not one of" in output and "a would stand for a and for m" in output
+    assert "(E_star; E and nu; E and nu, rigid; mu and kappa; mu and kappa, rigid)" in output
+    for line in ("1. Body", "2. Symm", "3. Elas", "4. Lett", "Error: 'G'"):
+        assert f"\n{line}" in output
     assert tomllib.loads(new.read_text())["paper"] == {
         "symmetric": False,
         "modulus": "E_star",
         "letters": {"m": "k", "n": "l"},
     }
+
+
+def test_the_questions_name_all_letters(tmp_path: Path) -> None:
+    paper = written(tmp_path, PAPER, "paper.tex")
+    output = run(paper, "--draft", tmp_path / "new.toml", answers="hertz\ny\nE_star\n\n").output
+    ours, off = (
+        " ".join(output.partition(start)[2].split()) for start in ("Our letters", "off the middle")
+    )
+    assert "m, half-width of the stick zone" in ours
+    for letter in ("n, right end", "d, half-width", "e, eccentricity", "sigma, bulk tension"):
+        assert letter in off
