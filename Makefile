@@ -28,6 +28,7 @@ PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal
 
 all: $(STAMP)
 	$(BIN)/derive generate
+	mkdir -p build
 	$(BIN)/derive check --html build/paper.html
 
 test: $(STAMP)
