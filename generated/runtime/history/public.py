@@ -154,12 +154,12 @@ def _numbers(
     """
     named = dict(zip(LOADS, loads, strict=True))
     numbers = numbers_of(named, {"f": f, "E_star": E_star, **own})
-    if any_lazy(numbers.values()):
-        return numbers
     shape = shape_of(numbers) or (1,)
     if shape[-1] < least:
         wanted = ("one instant", "two instants")[least - 1]
         raise ValueError(f"the last axis is time and must contain at least {wanted}; got {shape}")
+    if any_lazy(numbers.values()):
+        return numbers
     for name in ("f", "E_star", *own):
         value = np.atleast_1d(numbers[name])
         if np.any((value != value[..., :1]) & ~np.isnan(value)):
