@@ -209,7 +209,7 @@ class Context:
             table = {**self._renamed, **dict(zip(known.arguments, call.args, strict=True))}
             for condition in known.conditions:
                 if not (condition.has(x) and self._is_an_end(condition, table)):
-                    yield self.substitute(condition.subs(table, simultaneous=True))
+                    yield self.substitute(condition.xreplace(table))
         for value in sorted(expr.atoms(PrincipalValue), key=str):
             for over in integrals(self.substitute(value)):
                 if over.limits[-1][0].name.endswith(FROM_POLE):
@@ -217,7 +217,7 @@ class Context:
 
     def _is_an_end(self, condition: Boolean, table: Mapping[Symbol, Expr]) -> bool:
         """Whether the position in a call is an end of the contact, up to which a formula holds."""
-        distance = (condition.lhs - condition.rhs).subs(table, simultaneous=True)
+        distance = (condition.lhs - condition.rhs).xreplace(table)
         return bool(expand(self.substitute(distance)) == 0)
 
     # -------------------------------------------------------------- units
