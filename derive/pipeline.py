@@ -12,17 +12,18 @@
     replace_folder files, a directory         the directory, replaced as a whole
     differences    files, a directory         the changes that would be made
 
-    sheet_and_body  a name or a file          the proven sheet and a BuiltBody: the stages to here
+    proven_sheet   a name or a file           the proven sheet: the stages to prove_sheet
+    sheet_and_body  a name or a file          the same and a BuiltBody: the stages to demand_right
     build_all      names and files            a BuiltBody for each; several are built at once
 
 A missing proof stops the build at module_text or demand_right, and nothing is written.
-`sheet_and_body` imports its stages only when it is called, because only it needs SymPy.
+The stages are imported only when they are called, because only they need SymPy.
 """
 
-import ast
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar
@@ -39,7 +40,7 @@ from derive.codegen.publish import (
 from derive.command.errors import BadProfile, NeedsOutput, TwoOfOneName
 from derive.command.folder import demand_replaceable, replace_folder
 from derive.command.limit import DEFAULT
-from derive.command.processes import Bounds, Report, in_processes
+from derive.command.processes import Bounds, Report, in_processes, silent
 from derive.sheet.built import BuiltBody, by_form
 
 if TYPE_CHECKING:
@@ -61,27 +62,16 @@ DONE = "done"
 """The stage reported for a body that is finished."""
 
 
-def _silent(body: str, stage: str) -> None:
-    """Ignore a report."""
+def proven_sheet(source: str, report: Report, limit: float) -> "FormulaSheet":
+    """The sheet of a body with a proof for every formula, from its name or file.
 
+    limit: time in seconds for the search for closed forms of integrals
 
-def sheet_and_body(
-    source: str, report: Report = _silent, limit: float = DEFAULT
-) -> "tuple[FormulaSheet, BuiltBody]":
-    """Build one body, from its name or file to the text of its module; its proven sheet as well.
-
-    limit: time in seconds for the search for closed forms of integrals; the text of the module does
-    not depend on its outcome.
-
-    Raises UserError for a fault in the source, and NotProven if a proof is missing or insufficient.
+    Raises UserError for a fault in the source.
     """
-    from derive.codegen.module import full_stick_text, module_text
-    from derive.codegen.printer import CannotPrint
-    from derive.codegen.trial import demand_right
     from derive.proof.prove import prove_sheet
-    from derive.sheet.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
+    from derive.sheet.derivation import derive_sheet, with_closed_forms
 
-    began = perf_counter()
     report(source, STAGES[0])
     geometry = load_geometry(source)
     report(source, STAGES[1])
@@ -89,7 +79,31 @@ def sheet_and_body(
     report(source, STAGES[2])
     sheet = with_closed_forms(sheet, limit)
     report(source, STAGES[3])
-    sheet = prove_sheet(sheet)
+    return prove_sheet(sheet)
+
+
+def time_limit_note(sheet: "FormulaSheet") -> str:
+    """A message if the search for closed forms reached its time limit, otherwise empty."""
+    from derive.sheet.derivation import NONE_IN_TIME
+
+    return sheet.remark if sheet.remark.startswith(NONE_IN_TIME) else ""
+
+
+def sheet_and_body(
+    source: str, report: Report = silent, limit: float = DEFAULT
+) -> "tuple[FormulaSheet, BuiltBody]":
+    """Build one body, from its name or file to the text of its module; its proven sheet as well.
+
+    limit: as in `proven_sheet`; the text of the module does not depend on the outcome.
+
+    Raises UserError for a fault in the source, and NotProven if a proof is missing or insufficient.
+    """
+    from derive.codegen.module import full_stick_text, module_text
+    from derive.codegen.printer import CannotPrint
+    from derive.codegen.trial import demand_right
+
+    began = perf_counter()
+    sheet = proven_sheet(source, report, limit)
     report(source, STAGES[4])
     try:
         text, stuck = module_text(sheet, _origin(source)), full_stick_text(sheet)
@@ -98,19 +112,16 @@ def sheet_and_body(
     except CannotPrint as error:
         remedy = "use only numbers and functions that NumPy supports"
         why = f"cannot be translated into NumPy code ({error})"
-        raise BadProfile(geometry.name, why, remedy) from error
+        raise BadProfile(sheet.geometry.name, why, remedy) from error
     closed, numerical = by_form(sheet.is_closed)
     verdicts = tuple((name, f.proof.verdict) for name, f in sheet.items() if f.proof)
-    time_limit_note = sheet.remark if sheet.remark.startswith(NONE_IN_TIME) else ""
-    seconds = perf_counter() - began
-    body = BuiltBody(
-        geometry.name, text, stuck, seconds, closed, numerical, verdicts, time_limit_note
-    )
-    return sheet, body
+    seconds, note = perf_counter() - began, time_limit_note(sheet)
+    name = sheet.geometry.name
+    return sheet, BuiltBody(name, text, stuck, seconds, closed, numerical, verdicts, note)
 
 
 def build_all(
-    sources: Sequence[str], report: Report = _silent, jobs: int = 1, limit: float = DEFAULT
+    sources: Sequence[str], report: Report = silent, jobs: int = 1, limit: float = DEFAULT
 ) -> list[BuiltBody]:
     """The bodies of all sources, in order; `jobs` processes build them.
 
@@ -119,55 +130,31 @@ def build_all(
     Raises what `sheet_and_body` raises for the first source that fails, and stops work on the
     others, and what `each_in_process` raises.
     """
-    return each_in_process(_build, sources, report, jobs, limit)
+    return each_in_process(partial(_build, limit=limit), sources, report, jobs)
 
 
 def each_in_process(
-    make: Callable[[tuple[str, float], Report], Made],
+    make: Callable[[str, Report], Made],
     sources: Sequence[str],
     report: Report,
-    jobs: int,
-    limit: float,
+    jobs: int = 1,
+    limited: bool = False,
 ) -> list[Made]:
-    """What `make` returns for every source and the time limit; `jobs` processes are at work.
+    """What `make` returns for every source; `jobs` processes are at work.
 
-    Raises TwoOfOneName before anything is made if the files state the same name, and RanAway if a
-    process ends early, or exceeds the limits USER_FILE_LIMITS for a file.
+    limited: whether the limits USER_FILE_LIMITS, which are those for a file, also hold for bodies
+        of the library
+
+    Raises RanAway if a process ends early, or exceeds the limits.
     """
-    _demand_names_of_their_own(sources)
-    bounds = None if all(map(is_in_library, sources)) else USER_FILE_LIMITS
-    return in_processes(make, [(source, limit) for source in sources], report, jobs, bounds)
+    limited = limited or not all(map(is_in_library, sources))
+    return in_processes(make, sources, report, jobs, USER_FILE_LIMITS if limited else None)
 
 
-def _build(asked: tuple[str, float], report: Report) -> BuiltBody:
-    source, limit = asked
+def _build(source: str, report: Report, limit: float) -> BuiltBody:
     _, body = sheet_and_body(source, report, limit)
     report(source, DONE)
     return body
-
-
-def _demand_names_of_their_own(sources: Iterable[str]) -> None:
-    """Raise TwoOfOneName if two files literally state the same name."""
-    known: set[str] = set()
-    for source in dict.fromkeys(sources):
-        name = stated_name(source)
-        if name in known:
-            raise TwoOfOneName(name)
-        known |= {name} - {""}
-
-
-def stated_name(source: str) -> str:
-    """The name of a body, which is read from its file without running it; "" if unclear."""
-    if is_in_library(source):
-        return source
-    with suppress(OSError, ValueError, SyntaxError, RecursionError, MemoryError):
-        path = Path(source)
-        tree = ast.parse(path.read_bytes() if path.is_file() else b"")
-        calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
-        named = [c.args[0] for c in calls if ast.unparse(c.func) == "Geometry" and c.args]
-        if len(named) == 1 and isinstance(named[0], ast.Constant):
-            return str(named[0].value)
-    return ""
 
 
 def _is_file(source: str) -> bool:

@@ -97,31 +97,34 @@ def show(
     if html:
         _show_page(name, out, limit) if name else _show_pages(out, limit)
         return
-    from derive.command.showing import in_limited_process, sheet_of, slip_of
+    from derive.command.showing import sheet_of, shown, slip_of
 
     assert name is not None
     if slip:
-        click.echo(in_limited_process(slip_of, name, slip))
+        click.echo(shown(partial(slip_of, order=slip), name, limited=True))
         return
-    shown, said = in_limited_process(sheet_of, name, "latex" if latex else code or "", limit)
+    form = "latex" if latex else code or ""
+    sheet, said = shown(partial(sheet_of, form=form, limit=limit), name)
     if said:
         remark(said)
-    if isinstance(shown, str):
-        click.echo(shown)
+    if isinstance(sheet, str):
+        click.echo(sheet)
     else:
-        output(shown)
+        output(sheet)
 
 
 def _show_page(name: str, out: Path | None, limit: float) -> None:
     """Write the page of one body."""
     import derive.handbook  # noqa: F401 - reports a missing library at once
+    from derive.body.library import is_in_library
     from derive.command.files import demand_page, put_page
     from derive.command.showing import page_of
-    from derive.pipeline import each_in_process, stated_name
+    from derive.pipeline import each_in_process
 
-    demand_page(out or Path(f"{stated_name(name)}.html"))
+    if out or is_in_library(name):
+        demand_page(out or Path(f"{name}.html"))
     with _progress(1) as step:
-        ((body, page, _),) = each_in_process(page_of, [name], step, 1, limit)
+        ((body, page, _),) = each_in_process(partial(page_of, limit=limit), [name], step)
     _remark_on([body])
     path = out or Path(f"{body.name}.html")
     put_page(page, path)
@@ -138,10 +141,10 @@ def _show_pages(out: Path | None, limit: float) -> None:
     from derive.handbook.page import index_of
     from derive.pipeline import each_in_process
 
-    folder, page_of_set = out or Path("handbook"), partial(page_of, index=True)
+    folder, page_of_set = out or Path("handbook"), partial(page_of, limit=limit, index=True)
     demand_replaceable(folder)
     with _progress(len(library())) as step:
-        made = each_in_process(page_of_set, library(), step, cores(), limit)
+        made = each_in_process(page_of_set, library(), step, cores())
     bodies, _, entries = zip(*made, strict=True)
     _remark_on(bodies)
     pages = {f"{body.name}.html": page for body, page, _ in made}

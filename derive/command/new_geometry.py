@@ -16,7 +16,7 @@ from derive.body.library import is_in_library
 from derive.codegen.module import formatted
 from derive.command.errors import BadName, BadProfile, BadUnit, UserError
 from derive.command.options import bad_option
-from derive.command.processes import Bounds, Report, in_processes
+from derive.command.processes import Bounds, Report, in_processes, silent
 from derive.reading.profile import parameters, read, tree_of, value
 from derive.reading.text import Tree
 from derive.reading.units import units_of_profile
@@ -56,21 +56,13 @@ class Wanted:
     meanings: Mapping[str, str] = field(default_factory=dict)
 
 
-def in_limited_process(wanted: Wanted, bounds: Bounds = TEXT_LIMITS) -> tuple[Geometry, str]:
-    """The same as `new_geometry`.
-
-    Raises RanAway if the process exceeds its limits, and the exceptions of `new_geometry`.
-    """
-    (made,) = in_processes(_reported, [wanted], lambda *_: None, 1, bounds)
+def in_limited_process(wanted: Wanted) -> tuple[Geometry, str]:
+    """The same as `new_geometry`; also raises RanAway if a process exceeds TEXT_LIMITS."""
+    (made,) = in_processes(new_geometry, [wanted], silent, 1, TEXT_LIMITS)
     return made
 
 
-def _reported(wanted: Wanted, report: Report) -> tuple[Geometry, str]:
-    report(f"g of {wanted.name!r}", "reading g(x)")
-    return new_geometry(wanted)
-
-
-def new_geometry(wanted: Wanted) -> tuple[Geometry, str]:
+def new_geometry(wanted: Wanted, report: Report = silent) -> tuple[Geometry, str]:
     """The geometry that is described, and the text of the file that defines it.
 
     Raises BadName, BadText, BadOption, BadUnit, OpenUnits, and the exceptions of Geometry.
@@ -84,6 +76,7 @@ def new_geometry(wanted: Wanted) -> tuple[Geometry, str]:
     geometry = Geometry("cylinder", g=x**2 / (2 * R))
     <BLANKLINE>
     """
+    report(f"g of {wanted.name!r}", "reading g(x)")
     _demand_name(wanted.name)
     tree = tree_of(wanted.profile)
     names = tuple(parameters(tree))

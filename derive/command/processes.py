@@ -35,6 +35,11 @@ Result = TypeVar("Result")
 Report = Callable[[str, str], None]
 """Called with the item that is worked on and the stage that it enters."""
 
+
+def silent(what: str, stage: str) -> None:
+    """Ignore a report."""
+
+
 _MAX_PROCESSES = 60
 """Largest number of processes that one process can wait for on every system."""
 _INTERVAL = 0.2

@@ -3,26 +3,23 @@
 In:  the name of a geometry of the library, or a geometry file.
 Out: texts, sheets for the terminal, pages.
 
-Work that may take a long time or that runs a user's file is done in a separate process with limits
-on time and memory.
+The series of slip zones, which may take a long time, and what runs a user's file are made in a
+separate process with limits on time and memory; a geometry file cannot end this one.
 """
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import click
 from rich.console import RenderableType
 from sympy import Add, Expr, Monomial, Poly
 
 from derive import derive_sheet, load_geometry, pipeline
-from derive.body.library import is_in_library
 from derive.command import view
-from derive.command.processes import Report, in_processes
+from derive.command.processes import Report
 from derive.command.terminal import folded, status
-from derive.proof import prove
 from derive.sheet.built import BuiltBody
-from derive.sheet.derivation import NONE_IN_TIME, slip_series, with_closed_forms
-from derive.sheet.formulas import FormulaSheet
+from derive.sheet.derivation import slip_series
 from derive.sheet.notation import text_of
 
 if TYPE_CHECKING:
@@ -37,35 +34,25 @@ _SENSES = (
 )
 
 
-def in_limited_process(
-    function: Callable[[tuple[Any, ...], Report], Shown], name: str, *more: object
-) -> Shown:
-    """Apply a function to a geometry, with limits for a file and for the series of slip zones.
+def shown(make: Callable[[str, Report], Shown], name: str, limited: bool = False) -> Shown:
+    """What `make` returns for a geometry, and a spinner that tells the stage.
 
-    With limits, it runs in a separate process, in which a geometry file cannot end this one.
+    limited: whether limits hold for a body of the library, too
     """
-    limited = function is slip_of or not is_in_library(name)
-    bounds = pipeline.USER_FILE_LIMITS if limited else None
     with status(f"reading {name}") as update:
 
         def report(what: str, stage: str) -> None:
             update(f"{what}: {stage}")
 
-        (shown,) = in_processes(function, [(name, *more)], report, 1, bounds)
-    return shown
+        (made,) = pipeline.each_in_process(make, [name], report, limited=limited)
+    return made
 
 
-def sheet_of(asked: tuple[str, str, float], report: Report) -> tuple[RenderableType, str]:
+def sheet_of(name: str, report: Report, form: str, limit: float) -> tuple[RenderableType, str]:
     """The proven sheet of a body for the terminal, in LaTeX or as code, and a remark."""
-    name, form, limit = asked
-    sheet = _derived(name, report)
-    if not sheet.is_closed("load"):
-        report(name, f"looking for closed forms, {limit:g} s at most")
-        sheet = with_closed_forms(sheet, limit)
-    report(name, "proving")
-    sheet = prove.prove_sheet(sheet).demand_proven()
-    struck = sheet.remark.startswith(NONE_IN_TIME)
-    remark = f"{sheet.geometry.name}: {sheet.remark}" if struck else ""
+    sheet = pipeline.proven_sheet(name, report, limit).demand_proven()
+    note = pipeline.time_limit_note(sheet)
+    remark = f"{sheet.geometry.name}: {note}" if note else ""
     if form == "latex":
         return sheet.latex, remark
     if form:
@@ -76,25 +63,24 @@ def sheet_of(asked: tuple[str, str, float], report: Report) -> tuple[RenderableT
 
 
 def page_of(
-    asked: tuple[str, float], report: Report, index: bool = False
+    name: str, report: Report, limit: float, index: bool = False
 ) -> "tuple[BuiltBody, str, Entry]":
     """A body, its page, and its entry in an index, to which the page may link."""
     from derive.handbook.page import entry, page
 
-    name, limit = asked
     sheet, body = pipeline.sheet_and_body(name, report, limit)
     made = body, page(sheet, body, index), entry(sheet, body)
     report(name, pipeline.DONE)
     return made
 
 
-def slip_of(asked: tuple[str, int], report: Report) -> str:
+def slip_of(name: str, report: Report, order: int) -> str:
     """The terms of both slip zones, then the meaning of their coefficients; long lines continue."""
-    name, order = asked
-    sheet = _derived(name, report)
+    report(name, "reading g(x)")
+    geometry = load_geometry(name)
     report(name, "deriving the terms of the slip zones")
     try:
-        terms, known = slip_series(sheet, order)
+        terms, known = slip_series(derive_sheet(geometry), order)
     except ValueError as error:
         raise click.BadParameter(str(error), param_hint="--slip") from None
     leading = [found[0] for found in terms.values()]
@@ -111,10 +97,3 @@ def _grouped(term: Expr, leading: Sequence[Expr]) -> Expr:
     """A term with one factor for each product of powers of the leading terms."""
     groups = Poly(term, *leading).terms()
     return Add(*(factor * Monomial(powers, leading).as_expr() for powers, factor in groups))
-
-
-def _derived(name: str, report: Report) -> FormulaSheet:
-    report(name, "reading g(x)")
-    geometry = load_geometry(name)
-    report(name, "deriving")
-    return derive_sheet(geometry)

@@ -18,9 +18,6 @@ from derive.sheet.notation import latex_of
 from derive.sheet.page import templates
 from derive.sheet.prose import unit
 
-SHOWN = 40
-"""Number of lines above which the code of a module is collapsed."""
-
 
 class Entry(NamedTuple):
     """One body in the index."""
