@@ -39,14 +39,8 @@ from derive.theory.algebra import is_zero
 from derive.theory.frame import Frame, KinkFrame
 from derive.theory.slip import pressure_next
 
-_LIMIT = "limit of p at the edges"
-_RATE = "(2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha"
-_PUNCHES = "growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt"
 _SHORT = 60
 """Largest number of operations for which an inverse is substituted symbolically."""
-_LONG = 200
-"""Number of operations above which a pressure is compared at each edge separately, because
-products of its derivatives take half a minute."""
 
 
 def symbolic_proof(sheet: FormulaSheet, name: str) -> Proof | None:
@@ -124,36 +118,17 @@ def certified_integral(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
 
 
 def _pressure(sheet: FormulaSheet, name: str) -> str | None:
-    """d/dc p at fixed tilt is P'(c)/(pi w), and p vanishes with w and the L_j at both edges.
-
-    At fixed tilt, d/dc means d/dc - (alpha_c/alpha_a) d/da.  Everything is multiplied by alpha_a,
-    so that no quotient remains.
-    """
-    frame = sheet.frame
-    tilt, load, p = (sheet[key].expr for key in ("tilt", "load", name))
-    if frame.is_long or count_ops(p) > _LONG:
-        return _PUNCHES if _grows_by_punches(sheet, p) else None
-    by_a, by_c = frame.diff(tilt, a), frame.diff(tilt, c)
-
-    def along(expr: Expr) -> Expr:
-        return frame.diff(expr, c) * by_a - frame.diff(expr, a) * by_c
-
-    if not is_zero(along(p) - along(load) / (pi * w), frame):
-        return None
-    return _PUNCHES
-
-
-def _grows_by_punches(sheet: FormulaSheet, p: Expr) -> bool:
     """Each edge separately: dp/dc = K_right (a + x)/(2 sqrt(h) w), dp/da = K_left (c - x)/(...).
 
-    At fixed tilt, where a'(c) = K_right/K_left, both together give dp/dc = P'(c)/(pi w).
+    At fixed tilt, where a'(c) = K_right/K_left, both together give dp/dc = P'(c)/(pi w).  The
+    rates of load and tilt tie K_N to them, and p vanishes with w and the L_j at both edges.
     """
-    return all(
-        is_zero(
-            sheet.frame.diff(p, edge) - sheet[K].expr * opposite / (2 * sqrt(h) * w), sheet.frame
-        )
-        for edge, K, opposite in ((c, "K_N_right", a + x), (a, "K_N_left", c - x))
-    )
+    for edge, K, opposite in ((c, "K_N_right", a + x), (a, "K_N_left", c - x)):
+        grows = sheet[K].expr * opposite / (2 * sqrt(h) * w)
+        off = sheet.frame.diff(sheet[name].expr, edge) - grows
+        if not (_is_in_the_rates(sheet, K) and is_zero(off, sheet.frame)):
+            return None
+    return "growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt"
 
 
 def _full_stick(sheet: FormulaSheet, name: str) -> str | None:
@@ -232,7 +207,7 @@ def _next(sheet: FormulaSheet, name: str) -> str | None:
 
 
 def _differentiated(of: str, edge: Symbol) -> Route:
-    """The route that differentiates another formula; `_by_rates` uses it too."""
+    """The route that differentiates another formula."""
 
     def route(sheet: FormulaSheet, name: str) -> str | None:
         grows = _is_rate(sheet.frame, sheet[name].expr, sheet[of].expr, edge)
@@ -247,36 +222,37 @@ def _is_rate(frame: Frame, rate: Expr, of: Expr, edge: Symbol) -> bool:
     return is_zero(rate - frame.diff(of, edge), frame)
 
 
-def _by_rates(value: Callable[[FormulaSheet], Expr], words: str) -> Route:
-    """The route of `_equal_to`; for a long body by the four rates, which are linear in the symbols.
+def _of_law(value: Callable[[FormulaSheet], Expr]) -> Route:
+    """The route of a quantity of the contact law, computed again from K_N as `value`.
 
+    The four rates, which are linear in the symbols of the kinks, tie K_N to load and tilt:
     P_a, P_c = (pi sqrt(h)/4) K_N and alpha_a, alpha_c = +/- K_N/(E* sqrt(h)) at the left and the
     right edge; a'(c) = -alpha_c/alpha_a and P'(c) = P_c + P_a a'(c) follow from these.
     """
 
     def route(sheet: FormulaSheet, name: str) -> str | None:
-        if not sheet.frame.is_long:
-            return _equal_to(value, words)(sheet, name)
-        rates = [f"{of}_by_{edge}" for of in ("load", "tilt") for edge in (a, c)]
-        if not all(_ROUTES[rate](sheet, rate) for rate in rates):
+        if not all(_is_in_the_rates(sheet, f"K_N_{side}") for side in ("left", "right")):
             return None
-        if name.startswith("K_N"):
-            return words if _is_in_the_rates(sheet, name) else None
-        ratio = sheet["K_N_right"].expr / sheet["K_N_left"].expr
-        rate = pi / 2 * sqrt(h) * sheet["K_N_right"].expr
-        follows = {"edge_ratio": ratio, "load_rate": rate, "punch": rate / pi}
-        return words if simplify(sheet[name].expr / follows[name]) == 1 else None
+        return _equal_to(value, "limit of p at the edges")(sheet, name)
 
     return route
 
 
+def _edge_coefficient(sheet: FormulaSheet, name: str) -> str | None:
+    """K_N from the rates of load and tilt at its edge."""
+    words = "(2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha"
+    return words if _is_in_the_rates(sheet, name) else None
+
+
 def _is_in_the_rates(sheet: FormulaSheet, name: str) -> bool:
-    """Whether the rates of load and tilt agree with K_N at that edge."""
+    """Whether load and tilt change at that edge as K_N says."""
     edge, sense = (a, 1) if name.endswith("left") else (c, -1)
     K = sheet[name].expr
-    of_load = pi * sqrt(h) / 4 * K - sheet[f"load_by_{edge}"].expr
-    of_tilt = sense * K / (E_star * sqrt(h)) - sheet[f"tilt_by_{edge}"].expr
-    return is_zero(of_load, sheet.frame) and is_zero(of_tilt, sheet.frame)
+    of_load, of_tilt = pi * sqrt(h) / 4 * K, sense * K / (E_star * sqrt(h))
+    return all(
+        _is_rate(sheet.frame, rate, sheet[of].expr, edge)
+        for of, rate in (("load", of_load), ("tilt", of_tilt))
+    )
 
 
 _ROUTES: dict[str, Route] = {
@@ -284,13 +260,10 @@ _ROUTES: dict[str, Route] = {
     "load": _equal_to(_load, "integration by parts, P = (E*/2) int g'' w ds"),
     "moment": _equal_to(_moment, "integration by parts, M = -(E*/2) int g'' w (s + mid)/2 ds"),
     "pressure": _pressure,
-    "edge_ratio": _by_rates(lambda s: s["K_N_right"].expr / s["K_N_left"].expr, _LIMIT),
-    "load_rate": _by_rates(lambda s: pi / 2 * sqrt(h) * s["K_N_right"].expr, _LIMIT),
-    "punch": _by_rates(lambda s: sqrt(h) / 2 * s["K_N_right"].expr, _LIMIT),
-    "K_N_left": _by_rates(
-        lambda s: 2 / pi * s["load_rate"].expr / sqrt(h) / s["edge_ratio"].expr, _RATE
-    ),
-    "K_N_right": _by_rates(lambda s: 2 / pi * s["load_rate"].expr / sqrt(h), _RATE),
+    "edge_ratio": _of_law(lambda s: s["K_N_right"].expr / s["K_N_left"].expr),
+    "load_rate": _of_law(lambda s: pi / 2 * sqrt(h) * s["K_N_right"].expr),
+    "punch": _of_law(lambda s: sqrt(h) / 2 * s["K_N_right"].expr),
+    **{f"K_N_{side}": _edge_coefficient for side in ("left", "right")},
     **{
         f"{of}_by_{edge}": _differentiated(of, edge)
         for of in ("load", "moment", "tilt")

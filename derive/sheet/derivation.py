@@ -28,7 +28,7 @@ from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, 
 from derive.theory import contact_law, equilibrium, slip, stick, superposition
 from derive.theory.algebra import tidy
 from derive.theory.closed_forms import NoRule, closed_forms
-from derive.theory.edges import Edge, edge_ratio, load_rate, pressure_series
+from derive.theory.edges import Edge, pressure_series
 from derive.theory.frame import Frame
 from derive.theory.parts import has_parts, parts_of
 from derive.theory.pressure import pressure
@@ -241,13 +241,10 @@ def _pressure_formula(frame: Frame, expr: Expr, source: str) -> Formula:
 
 
 def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
-    frame, conditions = sheet.frame, contact_conditions(sheet.frame)
-    if frame.is_long:  # from K_N, since quotients of long sums would be longer
-        right = sheet["K_N_right"].expr
-        ratio, rate = right / sheet["K_N_left"].expr, pi / 2 * sqrt(h) * right
-    else:
-        ratio = edge_ratio(frame, sheet["tilt"].expr)
-        rate = load_rate(frame, sheet["load"].expr, ratio)
+    """a'(c) and P'(c) from K_N: at fixed tilt the pressure grows by that of a flat punch."""
+    conditions = contact_conditions(sheet.frame)
+    right = sheet["K_N_right"].expr
+    ratio, rate = right / sheet["K_N_left"].expr, pi / 2 * sqrt(h) * right
     for name, symbol, expr, meaning, unit, source in (
         ("edge_ratio", "a_prime", ratio, "a'(c), derivative of a at fixed tilt", "-", ""),
         ("load_rate", "P_prime", rate, "P'(c), derivative of P at fixed tilt", "Pa", ""),

@@ -7,7 +7,7 @@ moments      I_k(a, c), the integrals from which equilibrium follows
 equilibrium  tilt from I_0 = 0, load and moment from I_1 and I_2
 pressure     p(x) inside the contact
 contact_law  inverses of the contact law: (P, M) -> (a, c, alpha) and (P, alpha) -> (a, c, M)
-edges        K_N by two routes, P'(c) and a'(c) at fixed tilt, the series of p at an edge
+edges        the series of p at an edge, whose first coefficients are K_N and L_N
 segments     functions of the angle that a part of a contact spans
 parts        formulas of piecewise polynomial bodies as sums over the parts of a contact
 superposition  P, M, p, K_N and L_N as integrals of g'', for a body of any profile

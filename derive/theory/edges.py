@@ -1,9 +1,6 @@
-r"""The pressure next to an edge: K_N by two routes, and the series to any order.
+r"""The pressure next to an edge: K_N, L_N and the further terms of its series.
 
-Route 1 (Mossakovskii): at fixed tilt, K_N,right = (2/pi) P'(c)/sqrt(a + c) and
-K_N,left = K_N,right / a'(c).
-Route 2: expand p itself.  Let s be the distance from the edge, inward, so that
-w = sqrt(s) sqrt(h - s).  From
+Let s be the distance from the edge, inward, so that w = sqrt(s) sqrt(h - s).  From
 
     dL_j/dx = -w_j / (2 (x - x_j) w(x))
 
@@ -79,13 +76,3 @@ def _logarithm_series(kink: KinkFrame, edge: Edge, terms: int) -> list[Expr]:
     return [
         kink.w / (2 * h) * term / (Integer(n) + Rational(1, 2)) for n, term in enumerate(integrand)
     ]
-
-
-def edge_ratio(frame: Frame, tilt: Expr) -> Expr:
-    """a'(c) at fixed tilt, -(d alpha/dc)/(d alpha/da)."""
-    return tidy(-frame.diff(tilt, c) / frame.diff(tilt, a), frame)
-
-
-def load_rate(frame: Frame, load: Expr, ratio: Expr) -> Expr:
-    """P'(c) at fixed tilt."""
-    return tidy(frame.diff(load, c) + frame.diff(load, a) * ratio, frame)
