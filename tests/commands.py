@@ -12,6 +12,14 @@ from derive.command.cli import main
 ROOT = Path(__file__).parents[1]
 MODULE = (sys.executable, "-m", "derive")
 
+CYLINDER = '''"""A cylinder of one's own."""
+from derive import Geometry, parameter, x
+
+radius = parameter("radius", "radius", unit="m")
+geometry = Geometry("cylinder", g=x**2 / (2 * radius))
+'''
+"""A geometry file."""
+
 
 def run(*arguments: object) -> Result:
     return CliRunner().invoke(main, [*map(str, arguments)])

@@ -42,8 +42,8 @@ def test_the_index_leads_to_every_page() -> None:
 
 def test_the_handbook_has_a_page_with_every_formula_of_a_body() -> None:
     from derive.sheet.derivation import derive_sheet
+    from tests.codegen.made import body_of
     from tests.derive.bodies import assumed
-    from tests.derive.handbook.test_handbook import body_of
 
     pages = module("pages")
     sheet = assumed(derive_sheet(load_geometry("wedge")))

@@ -2,6 +2,7 @@
 digits and more, and it is what the sheet says by formulas that were derived from g' another way."""
 
 from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 
 import mpmath
@@ -15,6 +16,7 @@ from derive.codegen.integrals import FinitePart, Integrals, curvature
 from derive.codegen.plan import Route, route_of
 from derive.proof.points import Point, numeric
 from derive.sheet.derivation import derive_sheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, P, a, c
 from derive.theory.superposition import xi
 
@@ -31,6 +33,13 @@ BODIES: dict[str, Expr] = {
     ),
     "catenary": b**2 / R * (cosh(x / b) - 1),
 }
+
+
+@cache
+def sheet_of(name: str) -> FormulaSheet:
+    return derive_sheet(Geometry("body", g=BODIES[name]).described("A body."))
+
+
 PLACES = (
     ("cubic edges", (-0.25, 2.0, 0.75)),
     ("a smooth tip and a corner", (2.5, 1.5, 0.3)),
@@ -104,7 +113,7 @@ def _finite_part(integrand: Expr, body: Integrals, point: Point) -> mpf:
 def test_the_printed_integrals_are_the_formulas_of_the_sheet(
     name: str, given: tuple[float, float, float]
 ) -> None:
-    sheet = derive_sheet(Geometry("body", g=BODIES[name]).described("A body."))
+    sheet = sheet_of(name)
     (second,) = (function for function in CONTRACT if function.name == "L_N")
     assert route_of(sheet, second) is Route.QUADRATURE
     body = Integrals(sheet)
@@ -121,8 +130,7 @@ def test_the_printed_integrals_are_the_formulas_of_the_sheet(
 
 
 def test_the_lines_define_all_that_they_hold() -> None:
-    sheet = derive_sheet(Geometry("body", g=BODIES["cubic edges"]))
-    assert [*Integrals(sheet).lines(("load",))] == [
+    assert [*Integrals(sheet_of("cubic edges")).lines(("load",))] == [
         "P = E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2",
         "w(xi) = sqrt((a + xi)*(c - xi))",
         "g''(xi) = Piecewise((-6*(b + xi)/R**2, b < -xi), (0, b > xi), (6*(-b + xi)/R**2, True))",

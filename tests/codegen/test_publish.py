@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable
+from itertools import count
 from pathlib import Path
 
 import pytest
@@ -13,14 +14,10 @@ from derive.codegen.mark import MARK
 from derive.codegen.publish import RUNTIME, differences, package_files
 from derive.command.errors import BadTarget
 from derive.command.folder import MANIFEST, replace_folder
+from tests.commands import contents
 
 OLD = package_files({"cylinder": f"{MARK}\nold = 1\n", "wedge": f"{MARK}\nwedge = 1\n"})
 NEW = package_files({"cylinder": f"{MARK}\nnew = 2\n", "punch": f"{MARK}\npunch = 2\n"})
-
-
-def contents(folder: Path) -> dict[str, bytes]:
-    """Every file below a folder, by its relative path."""
-    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 
 def as_bytes(files: dict[str, str]) -> dict[str, bytes]:
@@ -32,9 +29,6 @@ def package(tmp_path: Path) -> Path:
     """A published package."""
     replace_folder(OLD, tmp_path / "package")
     return tmp_path / "package"
-
-
-# ------------------------------------------------------------------ what a package holds
 
 
 # ------------------------------------------------------------------ our own package
@@ -72,6 +66,7 @@ def test_a_package_is_replaced_whole(package: Path) -> None:
     (package.parent / "notes.txt").write_text("mine")
     replace_folder(NEW, package)
     assert contents(package) == as_bytes(NEW)
+    assert not (package / "__pycache__").exists()
     assert {p.name for p in package.parent.iterdir()} == {"package", "notes.txt"}
 
 
@@ -139,30 +134,21 @@ def test_a_file_a_place_below_one_and_a_link_are_no_package(tmp_path: Path, plac
 # ------------------------------------------------------------------ a failure in the middle
 
 
-class Failure:
-    """A method of Path that fails from its `after`-th call on, as often as `times`."""
-
-    def __init__(self, method: str, error: BaseException, after: int, times: int = 1) -> None:
-        self.real, self.error = getattr(Path, method), error
-        self.calls, self.window = 0, range(after, after + times)
-
-    def __get__(self, path: Path, _: type | None = None) -> Callable[..., object]:
-        return lambda *args, **kwargs: self(path, *args, **kwargs)
-
-    def __call__(self, path: Path, *args: object, **kwargs: object) -> object:
-        self.calls += 1
-        if self.calls in self.window:
-            raise self.error
-        return self.real(path, *args, **kwargs)
-
-
 FULL = OSError(errno.ENOSPC, "No space left on device")
 
 
 def failing(
-    monkeypatch: pytest.MonkeyPatch, method: str, error: BaseException, after: int, times: int = 1
+    patch: pytest.MonkeyPatch, method: str, error: BaseException, after: int, times: int = 1
 ) -> None:
-    monkeypatch.setattr(Path, method, Failure(method, error, after, times))
+    """Lets a method of Path fail from its `after`-th call on, as often as `times`."""
+    real, number = getattr(Path, method), count(1)
+
+    def fails(*given: object, **more: object) -> object:
+        if next(number) in range(after, after + times):
+            raise error
+        return real(*given, **more)
+
+    patch.setattr(Path, method, fails)
 
 
 @pytest.mark.parametrize(

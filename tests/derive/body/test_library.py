@@ -10,18 +10,7 @@ import pytest
 
 from derive.body.library import library, load_geometry
 from derive.command.processes import end
-
-CYLINDER = '''"""A cylinder of one's own."""
-from derive import Geometry, parameter, x
-
-radius = parameter("radius", "radius", unit="m")
-geometry = Geometry("cylinder", g=x**2 / (2 * radius))
-'''
-
-
-@pytest.fixture
-def cylinder(tmp_path: Path) -> Path:
-    return written(tmp_path / "cylinder.py", CYLINDER)
+from tests.commands import CYLINDER
 
 
 def written(path: Path, text: str) -> Path:
@@ -38,7 +27,8 @@ def test_the_library_is_the_folder_and_a_body_bears_its_file_s_name_and_words() 
         assert body.description and all(q.meaning for q in body.parameters)
 
 
-def test_a_file_is_loaded_by_text_and_by_path(cylinder: Path) -> None:
+def test_a_file_is_loaded_by_text_and_by_path(tmp_path: Path) -> None:
+    cylinder = written(tmp_path / "cylinder.py", CYLINDER)
     for given in (cylinder, str(cylinder)):
         body = load_geometry(given)
         assert (body.name, str(body.g)) == ("cylinder", "x**2/(2*radius)")

@@ -95,7 +95,6 @@ COMMANDS = {
     "show '[red]:bug:[/]'": "[red]:bug:[/]",
     "show body.txt": "not a Python file",
     "show bytes.py": "bytes.py",
-    "check --explain nope": "none of the",
     "generate hertz sphere": "sphere",
     "generate body.py": "body.py is not in the library, and the package `generated` contains only",
     "generate body.py --check": "--out",
@@ -121,6 +120,10 @@ COMMANDS = {
     "check none.tex --draft notes.txt": "notes.txt already exists; nothing was written",
     "edge none.csv --f 0.5 --csv nowhere/new.csv": "nowhere is not a directory",
     "show hertz --html --out nowhere/page.html": "nowhere is not a directory",
+    "show hertz --html --out notes.txt": "notes.txt exists and was not made by `derive`",
+    "show hertz --html --out mine": "mine is a directory",
+    f"show hertz --html --out {'a' * 300}": "too long",
+    "show --all --html --out mine": "contains 'notes.txt'",
     "new ../body x**2/R": "name of a module",
     "new class x**2/R": "name of a module",
     "new contact x**2/R": "reserved by the theory",
@@ -154,15 +157,10 @@ WITHOUT_MEASURE = {
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, in_this_process: None) -> Path:
     """A current directory with files; a geometry file runs without the seconds of a process."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(derive.pipeline, "USER_FILE_LIMITS", None)
-    monkeypatch.setattr(
-        derive.command.new_geometry,
-        "in_processes",
-        lambda task, items, *_: [task(item, lambda *_: None) for item in items],
-    )
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "notes.txt").write_text("mine")
     (tmp_path / "notes.txt").write_text("mine")

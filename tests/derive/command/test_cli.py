@@ -10,37 +10,28 @@ import sys
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 
 import pytest
 from sympy import expand, sympify
 
-import derive.codegen.trial
 import derive.command.processes
 import derive.command.terminal
 import derive.pipeline
 import derive.proof.prove
-import derive.sheet.derivation
 from derive.body.library import library, load_geometry
 from derive.codegen.mark import MARK
 from derive.command.cli import main
 from derive.command.processes import Bounds
 from derive.pipeline import DONE, GENERATED, STAGES
 from derive.proof.verdict import Proof, Verdict
-from derive.sheet.built import BuiltBody, by_form
-from derive.sheet.derivation import derive_law, derive_sheet, slip_series, with_closed_forms
+from derive.sheet.built import BuiltBody
+from derive.sheet.derivation import derive_sheet, slip_series
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
-from tests.commands import MODULE, ROOT, contents, done, lines, real, refused, run
-from tests.derive.bodies import assumed, sheet
-
-CYLINDER = '''"""A cylinder of one's own."""
-from derive import Geometry, parameter, x
-
-radius = parameter("radius", "radius", unit="m")
-geometry = Geometry("cylinder", g=x**2 / (2 * radius))
-'''
+from tests.codegen.made import body_of
+from tests.commands import CYLINDER, MODULE, ROOT, contents, done, lines, real, refused, run
+from tests.derive.bodies import sheet
 
 
 @pytest.fixture
@@ -51,25 +42,6 @@ def committed(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Monk
     (copy.parent / "pyproject.toml").touch()  # a clone, and no installed package
     monkeypatch.setattr(derive.pipeline, "GENERATED", copy)
     return copy
-
-
-@pytest.fixture
-def unproven(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The pipeline without the seconds that its proofs take."""
-    monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
-    monkeypatch.setattr(derive.codegen.trial, "demand_right", lambda *_: None)
-    monkeypatch.setattr(
-        derive.pipeline, "USER_FILE_LIMITS", None
-    )  # another process would know of neither
-
-
-STUCK = (GENERATED / "full_stick.py").read_text(encoding="utf-8")
-
-
-def body_of(sheet: FormulaSheet, text: str) -> BuiltBody:
-    """A body without the seconds that its text takes."""
-    verdicts = tuple((name, Verdict.PROVEN) for name in sheet)
-    return BuiltBody(sheet.geometry.name, text, STUCK, 0.0, *by_form(sheet.is_closed), verdicts)
 
 
 def of_library(name: str, text: str) -> BuiltBody:
@@ -105,54 +77,31 @@ def built(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 # ------------------------------------------------------------------ list, show, help
 
 
-@cache
-def law(name: str) -> FormulaSheet:
-    return derive_law(load_geometry(name))
-
-
-@cache
-def closed(name: str) -> FormulaSheet:
-    return with_closed_forms(law(name))
-
-
-@pytest.fixture
-def laws(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Those of the library, derived once for all its listings."""
-    monkeypatch.setattr(derive.sheet.derivation, "derive_law", lambda body: law(body.name))
-    monkeypatch.setattr(
-        derive.sheet.derivation, "with_closed_forms", lambda of: closed(of.geometry.name)
-    )
-
-
 @pytest.mark.slow
-@pytest.mark.usefixtures("laws")
-class TestList:
-    """`derive list`; no name and no word is cut."""
-
-    @pytest.mark.parametrize("columns", [60, 120])
-    def test_it_names_every_geometry_with_its_profile_and_its_forms(
-        self, columns: int, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        """In the columns that are asked for, into a pipe, too."""
-        monkeypatch.setenv("COLUMNS", str(columns))
-        printed = done("list")
-        assert max(map(len, lines(printed))) <= columns
-        for name in library():
-            geometry = load_geometry(name)
-            for word in (name, *geometry.title.split(), *text_of(geometry.g).split()):
-                assert word in printed
-        parts = dict(part.split(maxsplit=1) for part in printed.split("\n\n") if part.strip())
-        power = " ".join(parts["power"].split())
-        assert "closed form forward by special functions" in power
-        assert "numerical forward in code, from (P, M)" in power
-        assert "special" not in parts["hertz"]
+def test_list_names_every_geometry_with_its_profile_and_its_forms(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """No name and no word is cut, in the columns that are asked for, into a pipe, too."""
+    monkeypatch.setenv("COLUMNS", "60")
+    printed = done("list")
+    assert max(map(len, lines(printed))) <= 60
+    for name in library():
+        geometry = load_geometry(name)
+        for word in (name, *geometry.title.split(), *text_of(geometry.g).split()):
+            assert word in printed
+    parts = dict(part.split(maxsplit=1) for part in printed.split("\n\n") if part.strip())
+    power = " ".join(parts["power"].split())
+    assert "closed form forward by special functions" in power
+    assert "numerical forward in code, from (P, M)" in power
+    assert "special" not in parts["hertz"]
 
 
 def test_the_command_is_a_module_too(tmp_path: Path) -> None:
     """And it advises to go on in the same way."""
-    ended = real(*MODULE, "new", "body", "x**2/R", cwd=tmp_path)
-    assert ended.returncode == 0, ended.stderr
-    told = re.search(": +(.*) show body.py$", ended.stdout, re.M)
+    (tmp_path / "body.py").write_text(CYLINDER)
+    ended = real(*MODULE, "generate", "body.py", cwd=tmp_path)
+    assert ended.returncode == 2, ended.stderr
+    told = re.search("as in `(.*) generate body.py --out my_package`", ended.stderr)
     assert told is not None
     ended = real("sh", "-c", f"{told[1]} --version", cwd=tmp_path)
     assert (ended.returncode, ended.stderr) == (0, "")
@@ -202,6 +151,7 @@ FORMS = [(), ("--slip", "1"), ("--html",)]
 ENDS, LOOPS = f"import os\nos.abort()\n{CYLINDER}", "while True: pass\n"
 
 
+@pytest.mark.enough("*form0", "*form3")
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "words", "form"),
@@ -248,11 +198,8 @@ def test_a_limit_that_strikes_is_told() -> None:
 
 
 @pytest.mark.slow
-def test_generate_tells_of_a_limit_that_struck(
-    here: Path, unproven: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_generate_tells_of_a_limit_that_struck(here: Path, unproven: None) -> None:
     """The module is the same."""
-    monkeypatch.setattr(derive.command.processes, "cores", lambda: 1)
     told = "catenary: No closed form found within 1e-09 s; the formulas remain integrals.\n"
     first = run("generate", "catenary", "--out", "made", "--limit", "1e-9")
     assert (first.exit_code, first.stderr) == (0, told)
@@ -271,12 +218,16 @@ def test_help_is_given() -> None:
         assert done(command, "-h") == done(command, "--help")
 
 
-@pytest.mark.parametrize("arguments", [["--version"], ["generate", "--help"]])
-def test_help_does_not_wait_for_sympy(arguments: list[str]) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [(["generate", "--help"], 0), (["generate", "derive/geometries/hertz.py"], 2)],
+)
+def test_help_and_an_order_do_not_wait_for_sympy(arguments: list[str], status: int) -> None:
     code = (
         "import sys\nfrom derive.command.cli import main\n"
-        f"try:\n    main({arguments!r})\nexcept SystemExit as end:\n    assert not end.code\n"
-        "late = {'sympy', 'mpmath', 'numpy', 'scipy', 'derive.pipeline'} & set(sys.modules)\n"
+        f"try:\n    main({arguments!r})\nexcept SystemExit as end:\n"
+        f"    assert end.code == {status}\n"
+        "late = {'sympy', 'numpy', 'scipy'} & set(sys.modules)\n"
         "assert not late, late\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT, capture_output=True)
@@ -419,17 +370,17 @@ class TestCheck:
         assert "is up to date" in done("generate", "--check")
 
     @pytest.mark.parametrize(
-        ("name", "text"),
+        ("name", "text", "what"),
         [
-            ("wedge.py", f"{MARK}\nmine = 1\n"),
-            ("py.typed", "mine"),
-            ("__init__.py", None),
-            ("old.py", f"{MARK}\n"),
-            ("notes.txt", "mine"),
+            ("wedge.py", f"{MARK}\nmine = 1\n", "changed"),
+            ("py.typed", "mine", "changed"),
+            ("__init__.py", None, "missing"),
+            ("old.py", f"{MARK}\n", "not generated"),
+            ("notes.txt", "mine", "not generated"),
         ],
     )
     def test_it_names_the_one_file_that_is_changed_missing_or_not_generated(
-        self, committed: Path, name: str, text: str | None
+        self, committed: Path, name: str, text: str | None, what: str
     ) -> None:
         if text is None:
             (committed / name).unlink()
@@ -439,7 +390,7 @@ class TestCheck:
         result = run("generate", "--check")
         assert result.exit_code == 1
         others = {path.name for path in committed.iterdir()} - {name}
-        assert name in result.stdout
+        assert f"{name}: {what}" in result.stdout
         assert not {line.partition(": ")[0] for line in lines(result.stdout)} & others
         assert ("-mine = 1" in result.stdout) == (name == "wedge.py")
         assert "derive generate" in result.stdout

@@ -8,17 +8,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 from ruff import find_ruff_bin
 
 from derive.body.library import load_geometry
-from derive.command.cli import main
 from derive.command.errors import BadProfile, BadTarget, OpenUnits
 from derive.command.files import place_of_geometry as place
 from derive.command.files import put_page
 from derive.command.new_geometry import NEUTRAL, Wanted, new_geometry
 from derive.reading.profile import read
 from derive.reading.units import units_of_profile
+from tests.commands import done
 from tests.derive.bodies import BODIES, geometry
 
 CYLINDER = '''"""Profile g(x) = x**2/(2*R)."""
@@ -28,27 +27,6 @@ from derive import Geometry, parameter, x
 R = parameter("R", "parameter of the profile", unit="m")
 geometry = Geometry("cylinder", g=x**2 / (2 * R))
 '''
-
-
-@pytest.fixture
-def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
-    """The command in an empty directory."""
-    monkeypatch.chdir(tmp_path)
-
-    def new(*arguments: str) -> Result:
-        return CliRunner().invoke(main, ["new", *arguments])
-
-    return new
-
-
-@pytest.fixture
-def run_here(run: Callable[..., Result], monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
-    """The same without the seconds that another process takes."""
-    monkeypatch.setattr(
-        "derive.command.new_geometry.in_processes",
-        lambda task, items, *_: [task(item, lambda *_: None) for item in items],
-    )
-    return run
 
 
 def held(folder: Path) -> list[str]:
@@ -145,10 +123,10 @@ def test_the_file_is_like_those_of_the_library() -> None:
 def test_the_file_passes_the_linter() -> None:
     text = new_geometry(Wanted("assorted", "max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4"))[1]
     strict = ["--isolated", "--line-length=100", "--select=E,F,I,D1,RUF", "-"]
-    done = subprocess.run(
+    checked = subprocess.run(
         [find_ruff_bin(), "check", *strict], input=text, text=True, capture_output=True
     )
-    assert done.returncode == 0, done.stdout
+    assert checked.returncode == 0, checked.stdout
 
 
 TITLES = [
@@ -180,25 +158,21 @@ def test_a_fault_of_the_reader_is_no_traceback(monkeypatch: pytest.MonkeyPatch) 
 # The place
 
 
-def test_a_file_goes_to_the_current_directory_a_directory_or_a_path(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "folder").mkdir()
-    (tmp_path / "folder.py").mkdir()
+def test_a_file_goes_to_the_current_directory_a_directory_or_a_path(here: Path) -> None:
+    (here / "folder").mkdir()
+    (here / "folder.py").mkdir()
     assert place("body", None) == Path("body.py")
     for out in ("folder/body.py", "folder.py/body.py"):
         assert place("body", Path(out).parent) == Path(out)
     assert place("body", Path("folder/mine.py")) == Path("folder/mine.py")
 
 
-def test_a_place_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "text.txt").write_text("kept")
-    (tmp_path / "body.py").write_text("kept")
-    (tmp_path / "link.py").symlink_to("nowhere")
-    (tmp_path / "other").mkdir()
-    (tmp_path / "other" / "body.py").mkdir()
+def test_a_place_that_is_none_is_refused(here: Path) -> None:
+    (here / "text.txt").write_text("kept")
+    (here / "body.py").write_text("kept")
+    (here / "link.py").symlink_to("nowhere")
+    (here / "other").mkdir()
+    (here / "other" / "body.py").mkdir()
     for out in (None, "body.py", "link.py", "nowhere", "nowhere/mine.py", "text.txt", "other"):
         with pytest.raises(BadTarget) as caught:
             place("body", None if out is None else Path(out))
@@ -206,7 +180,7 @@ def test_a_place_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
     for out in ("text.txt/mine.py", "q" * 300 + ".py", "a\0.py"):
         with pytest.raises(BadTarget):
             put_page("new", place("body", Path(out)), mark=None)
-    assert (tmp_path / "body.py").read_text() == (tmp_path / "text.txt").read_text() == "kept"
+    assert (here / "body.py").read_text() == (here / "text.txt").read_text() == "kept"
 
 
 @pytest.mark.parametrize(
@@ -227,36 +201,31 @@ def test_a_failing_write_leaves_nothing_behind(
 # The command
 
 
-def test_the_command_writes_the_file_and_says_what_next(
-    run: Callable[..., Result], tmp_path: Path
-) -> None:
-    result = run("cylinder", "x**2/(2*R)")
-    assert result.exit_code == 0, result.output
-    assert (tmp_path / "cylinder.py").read_text() == CYLINDER
-    assert held(tmp_path) == ["cylinder.py"]
-    assert "R [m]  parameter of the profile" in result.stdout
+def test_the_command_writes_the_file_and_says_what_next(here: Path) -> None:
+    told = done("new", "cylinder", "x**2/(2*R)")
+    assert (here / "cylinder.py").read_text() == CYLINDER
+    assert held(here) == ["cylinder.py"]
+    assert "R [m]  parameter of the profile" in told
     for command in ("show cylinder.py", "generate cylinder.py --out DIRECTORY"):
-        assert f"derive {command}\n" in result.stdout
+        assert f"derive {command}\n" in told
 
 
-def test_the_options_are_heard(run: Callable[..., Result], tmp_path: Path) -> None:
-    (tmp_path / "my bodies").mkdir()
+@pytest.mark.usefixtures("in_this_process")
+def test_the_options_are_heard(here: Path) -> None:
+    (here / "my bodies").mkdir()
     units_ = ("--unit", "R=m", "--unit", "phi = rad")
     meanings = ("--meaning", "phi=slope", "--meaning", "R=radius, 1/R = 1/R1 + 1/R2")
     words = ("--title", "Blunt.", "--out", "my bodies/blunt_1.py")
-    result = run("blunt", "phi*Abs(x) + phi*x**2/R", *units_, *meanings, *words)
-    assert result.exit_code == 0, result.output
-    assert "derive show 'my bodies/blunt_1.py'" in result.stdout
-    loaded = load_geometry(tmp_path / "my bodies" / "blunt_1.py")
+    told = done("new", "blunt", "phi*Abs(x) + phi*x**2/R", *units_, *meanings, *words)
+    assert "derive show 'my bodies/blunt_1.py'" in told
+    loaded = load_geometry(here / "my bodies" / "blunt_1.py")
     assert (loaded.name, loaded.description) == ("blunt", "Blunt.")
     meant = {q.name: (q.meaning, q.unit) for q in loaded.parameters}
     assert meant == {"R": ("radius, 1/R = 1/R1 + 1/R2", "m"), "phi": ("slope", "rad")}
 
 
 @pytest.mark.parametrize("text", ["-phi*Min(x, -x)", "-h0 + phi*Abs(x)", "- phi*Min(x, -x)"])
-def test_a_formula_may_begin_with_a_minus(
-    text: str, run_here: Callable[..., Result], tmp_path: Path
-) -> None:
-    result = run_here("wedge_2", text)
-    assert result.exit_code == 0, result.output
-    assert load_geometry(tmp_path / "wedge_2.py").g.has(load_geometry("wedge").parameters[0].symbol)
+@pytest.mark.usefixtures("in_this_process")
+def test_a_formula_may_begin_with_a_minus(text: str, here: Path) -> None:
+    done("new", "wedge_2", text)
+    assert load_geometry(here / "wedge_2.py").g.has(load_geometry("wedge").parameters[0].symbol)

@@ -110,7 +110,6 @@ def test_a_process_that_is_lost_is_told_with_what_to_do(place: int) -> None:
     [
         ("wait", "the stage 'begun' took longer than the limit of 1 s: "),
         ("memory", "the stage 'begun' needed more memory than the limit of 1 GB: "),
-        ("exit", "the stage 'begun' crashed"),
     ],
 )
 def test_what_stopped_a_process_is_told(name: str, told: str) -> None:

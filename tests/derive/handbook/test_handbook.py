@@ -10,21 +10,16 @@ from typing import Any
 import pytest
 from sympy import Abs
 
-import derive.codegen.trial
-import derive.command.processes
-import derive.proof.prove
 from derive import Geometry, derive_sheet, parameter, x
-from derive.command.errors import BadTarget
-from derive.command.files import put_page
 from derive.command.folder import replace_folder, with_manifest
 from derive.handbook.curves import OWN, drawn_at, pictures
 from derive.handbook.page import entry, index_of, page
 from derive.pipeline import GENERATED
-from derive.proof.verdict import Verdict
 from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.mathml import mathml
 from derive.sheet.picture import TOP
+from tests.codegen.made import body_of
 from tests.commands import done
 from tests.derive.bodies import assumed, of_library
 
@@ -34,14 +29,6 @@ NAMES = ("hertz", "flat_rounded", "hyperbola")
 """Closed both ways; with kinks; integrated."""
 
 OUTSIDE = re.compile(r"""(?:src|href)=["'](?!#|[\w-]+\.html)|url\(|@import|<script |<iframe""")
-
-
-STUCK = (GENERATED / "full_stick.py").read_text(encoding="utf-8")
-
-
-def body_of(sheet: FormulaSheet, text: str) -> BuiltBody:
-    verdicts = tuple((name, Verdict.PROVEN) for name in sheet)
-    return BuiltBody(sheet.geometry.name, text, STUCK, 0.0, ("forward",), (), verdicts)
 
 
 @cache
@@ -114,27 +101,6 @@ def test_a_body_of_ones_own_may_have_the_name_of_another() -> None:
     assert drawn_at(sheet)[1]["k"] > 2
 
 
-# ---------------------------------------------------------------------- on disk
-
-
-def test_a_page_of_ones_own_is_never_lost(tmp_path: Path) -> None:
-    mine = tmp_path / "hertz.html"
-    mine.write_text("mine")
-    for path, told in (
-        *(
-            (mine, "not made by"),
-            (tmp_path, "is a directory"),
-            (tmp_path / ("a" * 300), "too long"),
-        ),
-    ):
-        with pytest.raises(BadTarget, match=told):
-            put_page("<html>", path)
-    with pytest.raises(BadTarget, match=r"contains 'hertz.html'"):
-        replace_folder(with_manifest({}), tmp_path)
-    assert mine.read_text() == "mine"
-    assert [p.name for p in tmp_path.iterdir()] == ["hertz.html"]
-
-
 @pytest.mark.parametrize("latex", ["a & b", r"\unknown{x}", "a $ b"])
 def test_latex_that_would_show_is_refused(latex: str) -> None:
     with pytest.raises(ValueError, match="not typeset"):
@@ -143,21 +109,12 @@ def test_latex_that_would_show_is_refused(latex: str) -> None:
 
 @pytest.mark.enough("hertz")
 @pytest.mark.parametrize("name", ["hertz", "hyperbola"])
-def test_the_command_writes_a_page_and_the_same_of_what_it_kept(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
-    """Without the seconds that proofs take."""
-    monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
-    monkeypatch.setattr(derive.codegen.trial, "demand_right", lambda *_: None)
-    monkeypatch.setattr(derive.command.processes, "cores", lambda: 1)
-    pages = []
-    for path in (tmp_path / "first.html", tmp_path / "second.html"):
-        assert done("show", name, "--html", "--out", str(path)).strip() == f"Wrote {path}"
-        pages.append(path.read_text())
-    assert pages[0] == pages[1]
-    sheet, _ = made(name)
-    assert pages[0].count('class="verdict') >= len(sheet)
-    assert set(sheet) <= set(ids(pages[0]))
+def test_the_command_writes_a_page(tmp_path: Path, unproven: None, name: str) -> None:
+    path = tmp_path / "page.html"
+    assert done("show", name, "--html", "--out", str(path)).strip() == f"Wrote {path}"
+    text, (sheet, _) = path.read_text(), made(name)
+    assert text.count('class="verdict') >= len(sheet)
+    assert set(sheet) <= set(ids(text))
 
 
 # ---------------------------------------------------------------------- in a browser

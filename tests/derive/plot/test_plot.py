@@ -213,11 +213,14 @@ def test_a_map_colours_each_edge_by_its_sense() -> None:
 def test_the_lines_of_a_map_are_the_ends_of_the_stick_zone_with_a_gap_at_each_turn() -> None:
     t, marched = cycle(MODERATE_PULL)
     axes = plot.stick_slip(marched, t)
-    at, end = line(axes, "exact").get_data()
-    drawn = np.isfinite(at)
-    assert_allclose(at[drawn], t)
-    assert_allclose(end[drawn], -1e3 * marched.m)
-    assert np.count_nonzero(~drawn) == 2  # after the first instant, and at the middle
+    plot.boundaries(axes, t, marched, "order 1", length=plot.unit(STATE.a, "m"))
+    for label in ("exact", "order 1"):
+        at, end = line(axes, label).get_data()
+        drawn = np.isfinite(at)
+        assert_allclose(at[drawn], t)
+        assert_allclose(end[drawn], -1e3 * marched.m)
+        assert np.count_nonzero(~drawn) == 2  # after the first instant, and at the middle
+        assert label in words(axes.get_legend())
 
 
 def test_a_sweep_leaves_open_what_is_not_known() -> None:
@@ -254,18 +257,6 @@ def test_a_sweep_needs_the_tension_where_its_sign_decides() -> None:
     assert plot.sweep(friction, STATE, hertz.stick_zone(STATE, STATE, DQ, 0.0, **law), 0.0)
 
 
-def test_boundaries_are_the_zone_that_is_given() -> None:
-    t, marched = cycle(LARGE_PULL)
-    series = hertz.march(
-        P, M, *(of * -np.cos(2 * np.pi * t) / 2 for of in (DQ, LARGE_PULL)), **FRICTION
-    )
-    axes = plot.stick_slip(marched, t)
-    plot.boundaries(axes, t, series, "order 1", length=plot.unit(STATE.a, "m"))
-    _, end = line(axes, "order 1").get_data()
-    assert_allclose(end[np.isfinite(end)], -1e3 * series.m)
-    assert "order 1" in words(axes.get_legend())
-
-
 # ------------------------------------------------------------------ errors of the series
 
 
@@ -293,11 +284,7 @@ LARGEST = plot.Loads(2e6, 300.0, 8e5, 800e6, 1.0)
 START = plot.Loads(P, M, DQ, LARGE_PULL, 0.6)
 
 
-SAID = {
-    "mixed": {"dsigma": WINDOW},
-    "sliding": {"dQ": 8e5, "f": 0.3},
-    "moderate": {"dsigma": 0.0},
-}
+SAID = {"mixed": {"dsigma": WINDOW}, "sliding": {"f": 0.07}, "moderate": {"dsigma": 0.0}}
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
