@@ -413,7 +413,7 @@ def stick_zone(
     >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     ('MODERATE', '1.07718')
     """
-    return cycle.stick_zone(_BODY, {"L": L, "k": k}, first, second, dQ, dsigma, f, E_star, mixed)
+    return cycle.stick_zone(_BODY, {"L": L, "k": k}, (first, second, dQ, dsigma, f, E_star), mixed)
 
 
 def why(
@@ -452,7 +452,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"L": L, "k": k}, first, second, dQ, dsigma, f, E_star, "k > 1")
+    return cycle.why(_BODY, {"L": L, "k": k}, (first, second, dQ, dsigma, f, E_star), "k > 1")
 
 
 def tension_threshold(
@@ -485,7 +485,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.152789'
     """
-    return cycle.tension_threshold(_BODY, {"L": L, "k": k}, first, second, dQ, f, E_star)
+    return cycle.tension_threshold(_BODY, {"L": L, "k": k}, (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -623,7 +623,7 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.15, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(_BODY, {"L": L, "k": k}, x, first, second, dQ, dsigma, f, E_star)
+    return cycle.shear_change(_BODY, {"L": L, "k": k}, x, (first, second, dQ, dsigma, f, E_star))
 
 
 def shear(
@@ -676,7 +676,8 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    return cycle.shear(_BODY, {"L": L, "k": k}, x, contact, Q, sigma, f, E_star, dQ, dsigma)
+    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
+    return cycle.shear(_BODY, {"L": L, "k": k}, x, contact, loads, f, E_star)
 
 
 def slip_range(
@@ -716,7 +717,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(_BODY, {"L": L, "k": k}, x, first, second, dQ, dsigma, f, E_star)
+    return cycle.slip_range(_BODY, {"L": L, "k": k}, x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -768,7 +769,8 @@ def march(
     >>> march(1.22718, 0.306796, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return public.march(_BODY, {"L": L, "k": k}, P, M, Q, sigma, f, E_star)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.march(_BODY, {"L": L, "k": k}, given)
 
 
 def history(
@@ -826,7 +828,8 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    return public.history(_BODY, {"L": L, "k": k}, P, M, Q, sigma, f, E_star, x, tol)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.history(_BODY, {"L": L, "k": k}, given, x, tol)
 
 
 def steady_cycle(
@@ -881,4 +884,5 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '1.07718'
     """
-    return public.steady_cycle(_BODY, {"L": L, "k": k}, P, M, Q, sigma, f, E_star, x, tol)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.steady_cycle(_BODY, {"L": L, "k": k}, given, x, tol)

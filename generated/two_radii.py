@@ -482,7 +482,7 @@ def stick_zone(
     ('MODERATE', '1.07718')
     """
     return cycle.stick_zone(
-        _BODY, {"R_1": R_1, "R_2": R_2}, first, second, dQ, dsigma, f, E_star, mixed
+        _BODY, {"R_1": R_1, "R_2": R_2}, (first, second, dQ, dsigma, f, E_star), mixed
     )
 
 
@@ -522,7 +522,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"R_1": R_1, "R_2": R_2}, first, second, dQ, dsigma, f, E_star, "")
+    return cycle.why(_BODY, {"R_1": R_1, "R_2": R_2}, (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -562,7 +562,9 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.152789'
     """
-    return cycle.tension_threshold(_BODY, {"R_1": R_1, "R_2": R_2}, first, second, dQ, f, E_star)
+    return cycle.tension_threshold(
+        _BODY, {"R_1": R_1, "R_2": R_2}, (first, second, dQ, 0.0, f, E_star)
+    )
 
 
 def slip_zones(
@@ -701,7 +703,7 @@ def shear_change(
     0.0
     """
     return cycle.shear_change(
-        _BODY, {"R_1": R_1, "R_2": R_2}, x, first, second, dQ, dsigma, f, E_star
+        _BODY, {"R_1": R_1, "R_2": R_2}, x, (first, second, dQ, dsigma, f, E_star)
     )
 
 
@@ -755,7 +757,8 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    return cycle.shear(_BODY, {"R_1": R_1, "R_2": R_2}, x, contact, Q, sigma, f, E_star, dQ, dsigma)
+    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
+    return cycle.shear(_BODY, {"R_1": R_1, "R_2": R_2}, x, contact, loads, f, E_star)
 
 
 def slip_range(
@@ -796,7 +799,7 @@ def slip_range(
     0.0
     """
     return cycle.slip_range(
-        _BODY, {"R_1": R_1, "R_2": R_2}, x, first, second, dQ, dsigma, f, E_star
+        _BODY, {"R_1": R_1, "R_2": R_2}, x, (first, second, dQ, dsigma, f, E_star)
     )
 
 
@@ -849,7 +852,8 @@ def march(
     >>> march(1.22718, 0.306796, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return public.march(_BODY, {"R_1": R_1, "R_2": R_2}, P, M, Q, sigma, f, E_star)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.march(_BODY, {"R_1": R_1, "R_2": R_2}, given)
 
 
 def history(
@@ -907,7 +911,8 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    return public.history(_BODY, {"R_1": R_1, "R_2": R_2}, P, M, Q, sigma, f, E_star, x, tol)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.history(_BODY, {"R_1": R_1, "R_2": R_2}, given, x, tol)
 
 
 def steady_cycle(
@@ -962,4 +967,5 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '1.07718'
     """
-    return public.steady_cycle(_BODY, {"R_1": R_1, "R_2": R_2}, P, M, Q, sigma, f, E_star, x, tol)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.steady_cycle(_BODY, {"R_1": R_1, "R_2": R_2}, given, x, tol)

@@ -482,7 +482,7 @@ def stick_zone(
     ('MODERATE', '0.134093')
     """
     return cycle.stick_zone(
-        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, first, second, dQ, dsigma, f, E_star, mixed
+        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, (first, second, dQ, dsigma, f, E_star), mixed
     )
 
 
@@ -523,7 +523,7 @@ def why(
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
     return cycle.why(
-        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, first, second, dQ, dsigma, f, E_star, ""
+        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, (first, second, dQ, dsigma, f, E_star), ""
     )
 
 
@@ -565,7 +565,7 @@ def tension_threshold(
     '0.0193532'
     """
     return cycle.tension_threshold(
-        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, first, second, dQ, f, E_star
+        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, (first, second, dQ, 0.0, f, E_star)
     )
 
 
@@ -705,7 +705,7 @@ def shear_change(
     0.0
     """
     return cycle.shear_change(
-        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, x, first, second, dQ, dsigma, f, E_star
+        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, x, (first, second, dQ, dsigma, f, E_star)
     )
 
 
@@ -759,9 +759,8 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    return cycle.shear(
-        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, x, contact, Q, sigma, f, E_star, dQ, dsigma
-    )
+    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
+    return cycle.shear(_BODY, {"phi_1": phi_1, "phi_2": phi_2}, x, contact, loads, f, E_star)
 
 
 def slip_range(
@@ -802,7 +801,7 @@ def slip_range(
     0.0
     """
     return cycle.slip_range(
-        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, x, first, second, dQ, dsigma, f, E_star
+        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, x, (first, second, dQ, dsigma, f, E_star)
     )
 
 
@@ -855,7 +854,8 @@ def march(
     >>> march(0.153093, 0.0191366, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return public.march(_BODY, {"phi_1": phi_1, "phi_2": phi_2}, P, M, Q, sigma, f, E_star)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.march(_BODY, {"phi_1": phi_1, "phi_2": phi_2}, given)
 
 
 def history(
@@ -913,9 +913,8 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    return public.history(
-        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, P, M, Q, sigma, f, E_star, x, tol
-    )
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.history(_BODY, {"phi_1": phi_1, "phi_2": phi_2}, given, x, tol)
 
 
 def steady_cycle(
@@ -970,6 +969,5 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '0.134093'
     """
-    return public.steady_cycle(
-        _BODY, {"phi_1": phi_1, "phi_2": phi_2}, P, M, Q, sigma, f, E_star, x, tol
-    )
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.steady_cycle(_BODY, {"phi_1": phi_1, "phi_2": phi_2}, given, x, tol)

@@ -487,7 +487,7 @@ def stick_zone(
     ('MODERATE', '0.467937')
     """
     return cycle.stick_zone(
-        _BODY, {"R": R, "phi": phi}, first, second, dQ, dsigma, f, E_star, mixed
+        _BODY, {"R": R, "phi": phi}, (first, second, dQ, dsigma, f, E_star), mixed
     )
 
 
@@ -527,7 +527,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"R": R, "phi": phi}, first, second, dQ, dsigma, f, E_star, "")
+    return cycle.why(_BODY, {"R": R, "phi": phi}, (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -567,7 +567,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.0682456'
     """
-    return cycle.tension_threshold(_BODY, {"R": R, "phi": phi}, first, second, dQ, f, E_star)
+    return cycle.tension_threshold(_BODY, {"R": R, "phi": phi}, (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -705,7 +705,9 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.067, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(_BODY, {"R": R, "phi": phi}, x, first, second, dQ, dsigma, f, E_star)
+    return cycle.shear_change(
+        _BODY, {"R": R, "phi": phi}, x, (first, second, dQ, dsigma, f, E_star)
+    )
 
 
 def shear(
@@ -758,7 +760,8 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    return cycle.shear(_BODY, {"R": R, "phi": phi}, x, contact, Q, sigma, f, E_star, dQ, dsigma)
+    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
+    return cycle.shear(_BODY, {"R": R, "phi": phi}, x, contact, loads, f, E_star)
 
 
 def slip_range(
@@ -798,7 +801,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(_BODY, {"R": R, "phi": phi}, x, first, second, dQ, dsigma, f, E_star)
+    return cycle.slip_range(_BODY, {"R": R, "phi": phi}, x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -850,7 +853,8 @@ def march(
     >>> march(0.534937, -0.0289272, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    return public.march(_BODY, {"R": R, "phi": phi}, P, M, Q, sigma, f, E_star)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.march(_BODY, {"R": R, "phi": phi}, given)
 
 
 def history(
@@ -908,7 +912,8 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    return public.history(_BODY, {"R": R, "phi": phi}, P, M, Q, sigma, f, E_star, x, tol)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.history(_BODY, {"R": R, "phi": phi}, given, x, tol)
 
 
 def steady_cycle(
@@ -963,4 +968,5 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '0.467937'
     """
-    return public.steady_cycle(_BODY, {"R": R, "phi": phi}, P, M, Q, sigma, f, E_star, x, tol)
+    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
+    return public.steady_cycle(_BODY, {"R": R, "phi": phi}, given, x, tol)

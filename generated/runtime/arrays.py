@@ -174,3 +174,15 @@ def real(value: Any, label: str) -> Any:
             f"{label} must be a real number or a list, NumPy or Dask array of real numbers; got "
             f"{name} {value!r:.60}"
         ) from None
+
+
+def number(value: Any, name: str, kind: str = "finite") -> float:
+    """One number that is "finite", "non-negative finite" or "positive finite".
+
+    Raises TypeError if it is not a real number, ValueError if it is not of this kind.
+    """
+    found = real(value, name)
+    signs = {"finite": (-1, 0, 1), "non-negative finite": (0, 1), "positive finite": (1,)}
+    if np.ndim(found) or not (math.isfinite(found) and np.sign(found) in signs[kind]):
+        raise ValueError(f"{name} must be one {kind} number; got {value!r:.60}")
+    return float(found)

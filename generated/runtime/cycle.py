@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .arrays import numbers_of, real, shape_of, solved
+from .arrays import numbers_of, shape_of, solved
 from .body import Body
 from .chunks import any_lazy
 from .forward import each_contact, each_contact_at_tilt, each_pressure, each_series, each_state
@@ -20,6 +20,9 @@ from .types import Array, Contact, Edges, Regime, StickZone, Threshold, Values
 
 Own = dict[str, Any]
 """The parameters of a body, by name."""
+
+HalfCycle = tuple[Contact, Contact, Values, Values, Values, Values]
+"""first, second, dQ, dsigma, f and E_star."""
 
 
 def edges_of(contact: Any, label: str) -> dict[str, Any]:
@@ -35,8 +38,11 @@ def edges_of(contact: Any, label: str) -> dict[str, Any]:
         ) from None
 
 
-def _between(first: Any, second: Any, **loads: Any) -> dict[str, Any]:
-    return edges_of(first, "first") | edges_of(second, "second") | loads
+def _named(half_cycle: HalfCycle) -> tuple[Own, Own]:
+    """The edges and the loads of a half-cycle by their names, and f and E*."""
+    first, second, dQ, dsigma, f, E_star = half_cycle
+    edges = edges_of(first, "first") | edges_of(second, "second")
+    return edges | {"dQ": dQ, "dsigma": dsigma}, {"f": f, "E_star": E_star}
 
 
 def demand_order(order: Any) -> None:
@@ -122,25 +128,14 @@ def contact_at_tilt(body: Body, own: Own, P: Values, alpha: Values, E_star: Valu
 # ---------------------------------------------------------------- the stick zone
 
 
-def stick_zone(
-    body: Body,
-    own: Own,
-    first: Contact,
-    second: Contact,
-    dQ: Values,
-    dsigma: Values,
-    f: Values,
-    E_star: Values,
-    mixed: bool = False,
-) -> StickZone:
+def stick_zone(body: Body, own: Own, half_cycle: HalfCycle, mixed: bool = False) -> StickZone:
     """The zone that sticks throughout a steady cycle, and how the cycle slips.
 
     Raises TypeError if `mixed` is not True or False.
     """
     if not isinstance(mixed, bool | np.bool_):
         raise TypeError(f"mixed must be True or False, one value for all; got {mixed!r:.60}")
-    given = _between(first, second, dQ=dQ, dsigma=dsigma)
-    return stick_zones(body, given, {"f": f, "E_star": E_star}, own, bool(mixed))
+    return stick_zones(body, *_named(half_cycle), own, bool(mixed))
 
 
 def stick_zones(body: Body, given: Own, constants: Own, own: Own, mixed: bool) -> StickZone:
@@ -165,64 +160,45 @@ def _varies(given: Own) -> bool:
     return is_lazy or not (np.array_equal(a, a_2) and np.array_equal(c, c_2))
 
 
-def why(
-    body: Body,
-    own: Own,
-    first: Contact,
-    second: Contact,
-    dQ: Values,
-    dsigma: Values,
-    f: Values,
-    E_star: Values,
-    demands: str,
-) -> str:
+def why(body: Body, own: Own, half_cycle: HalfCycle, demands: str) -> str:
     """Why a cycle has no stick zone, or what its regime means, in words.
 
     Raises ValueError if an argument is an array.
     """
-    zone = stick_zone(body, own, first, second, dQ, dsigma, f, E_star)
+    zone = stick_zone(body, own, half_cycle)
     if np.ndim(zone.regime):
         raise ValueError(
             "`why` takes one cycle, with numbers as arguments; got arrays of shape "
             f"{np.shape(zone.regime)}"
         )
-    constants = numbers_of({"f": f, "E_star": E_star, **own}, {})
+    first, second, dQ, dsigma, f, E_star = half_cycle
     return reason(
         Regime(int(zone.regime)),
-        constants,
+        numbers_of({"f": f, "E_star": E_star, **own}, {}),
         numbers_of({"dQ": dQ, "dsigma": dsigma}, {}),
         {"first": (first.a, first.c), "second": (second.a, second.c)},
         demands,
     )
 
 
-def tension_threshold(
-    body: Body, own: Own, first: Contact, second: Contact, dQ: Values, f: Values, E_star: Values
-) -> Threshold:
-    """The changes in tension between which tension is moderate, under constant normal loads."""
-    zone = stick_zone(body, own, first, second, dQ, 0.0, f, E_star)
-    edges = numbers_of(_between(first, second), {})
-    a, c, a_2, c_2 = edges.values()
+def tension_threshold(body: Body, own: Own, half_cycle: HalfCycle) -> Threshold:
+    """The changes in tension between which tension is moderate, under constant normal loads.
+
+    half_cycle: without a change in tension.
+    """
+    zone = stick_zone(body, own, half_cycle)
+    a, c, a_2, c_2, dQ, _ = numbers_of(_named(half_cycle)[0], {}).values()
     known = (a == a_2) & (c == c_2) & np.isfinite(zone.m)
-    limit = np.where(known, 8 * real(dQ, "dQ") / (np.pi * (a + c)), np.nan)[()]
+    limit = np.where(known, 8 * dQ / (np.pi * (a + c)), np.nan)[()]
     return Threshold(-limit, limit)
 
 
 # ---------------------------------------------------------------- slip zones by series
 
 
-def _series(
-    body: Body,
-    own: Own,
-    a: Values,
-    c: Values,
-    dQ: Values,
-    dsigma: Values,
-    f: Values,
-    E_star: Values,
-    da: Values,
-    dc: Values,
-) -> _Series:
+def _series(body: Body, own: Own, arguments: tuple[Values, ...], order: int) -> _Series:
+    demand_order(order)
+    a, c, dQ, dsigma, f, E_star, da, dc = arguments
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     found: _Series = solved(each_slip_zones, body, given, {"f": f, "E_star": E_star}, own, _Series)
     return found
@@ -230,15 +206,13 @@ def _series(
 
 def slip_zones(body: Body, own: Own, *arguments: Values, order: int) -> Edges:
     """Slip zones by their series."""
-    demand_order(order)
-    found = _series(body, own, *arguments)
+    found = _series(body, own, arguments, order)
     return Edges(*(found[:2] if order == 1 else found[2:]))
 
 
 def slip_error(body: Body, own: Own, *arguments: Values, order: int) -> Edges:
     """The estimated error of the slip zones: the second term, or its square over the zone."""
-    demand_order(order)
-    first, second = (found := _series(body, own, *arguments))[:2], found[2:]
+    first, second = (found := _series(body, own, arguments, order))[:2], found[2:]
     with np.errstate(all="ignore"):
         errors = [abs(two - one) for one, two in zip(first, second, strict=True)]
         if order == 2:
@@ -250,55 +224,39 @@ def slip_error(body: Body, own: Own, *arguments: Values, order: int) -> Edges:
 # ---------------------------------------------------------------- shear and slip
 
 
-def shear_change(*arguments: Any) -> Array:
+def shear_change(body: Body, own: Own, x: Values, half_cycle: HalfCycle) -> Array:
     """The change in the shear traction over a half-cycle."""
-    return _at_places(each_shear_change, *arguments)[1]
+    return _at_places(each_shear_change, body, own, x, half_cycle)[1]
 
 
-def slip_range(*arguments: Any) -> Array:
+def slip_range(body: Body, own: Own, x: Values, half_cycle: HalfCycle) -> Array:
     """The slip range over a half-cycle."""
-    return _at_places(each_slip_range, *arguments)[1]
+    return _at_places(each_slip_range, body, own, x, half_cycle)[1]
 
 
 def _at_places(
-    loop: Any,
-    body: Body,
-    own: Own,
-    x: Values,
-    first: Contact,
-    second: Contact,
-    dQ: Values,
-    dsigma: Values,
-    f: Values,
-    E_star: Values,
+    loop: Any, body: Body, own: Own, x: Values, half_cycle: HalfCycle
 ) -> tuple[StickZone, Array]:
     """The stick zone, solved once per cycle, and what a loop finds at places x."""
-    zone = stick_zone(body, own, first, second, dQ, dsigma, f, E_star)
-    given = {**_between(first, second, dQ=dQ, dsigma=dsigma), **zone._asdict(), "x": x}
-    return zone, solved(loop, body, given, {"f": f, "E_star": E_star}, own)
+    zone = stick_zone(body, own, half_cycle)
+    given, constants = _named(half_cycle)
+    return zone, solved(loop, body, {**given, **zone._asdict(), "x": x}, constants, own)
 
 
 def shear(
-    body: Body,
-    own: Own,
-    x: Values,
-    contact: Contact,
-    Q: Values,
-    sigma: Values,
-    f: Values,
-    E_star: Values,
-    dQ: Values,
-    dsigma: Values,
+    body: Body, own: Own, x: Values, contact: Contact, loads: Own, f: Values, E_star: Values
 ) -> Array:
-    """The shear traction after a rise of the loads and a fall."""
-    given = {**edges_of(contact, "contact"), "Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    numbers = numbers_of(given, {})
+    """The shear traction after a rise of the loads from zero and a fall.
+
+    loads: Q, sigma, dQ and dsigma, by name.
+    """
+    numbers = numbers_of(edges_of(contact, "contact") | loads, {})
     shape_of(numbers | numbers_of({"x": x}, {"f": f, "E_star": E_star, **own}))
-    a, c, *loads = numbers.values()
-    rise, fall = [2 * value for value in loads[:2]], loads[2:]
+    a, c, Q, sigma, *fall = numbers.values()
+    rise = [2 * Q, 2 * sigma]
     (risen, up), (fallen, down) = (
-        _at_places(each_shear_change, body, own, x, contact, contact, dQ, dsigma, f, E_star)
-        for dQ, dsigma in (rise, fall)
+        _at_places(each_shear_change, body, own, x, (contact, contact, *changes, f, E_star))
+        for changes in (rise, fall)
     )
     with np.errstate(all="ignore"):
         known = rises_and_falls((a, c), rise, risen, fall, fallen)

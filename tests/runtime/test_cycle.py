@@ -135,8 +135,8 @@ HERE = Contact(1.0, 1.0, 0.0)
          "order must be 1 or 2; got 9"),
         (lambda: wedge.march(1, 0, [0, 0.1], 0, f=[1, 2], **LAW), ValueError,
          "must not change along the last axis"),
-        (lambda: wedge.march(1, 0, 0.1, 0, f=1, **LAW), ValueError, "at least two instants"),
-        (lambda: wedge.march(1, 0, [], 0, f=1, **LAW), ValueError, "at least two instants"),
+        (lambda: wedge.march(1, 0, 0.1, 0, f=1, **LAW), ValueError, "2 or more values"),
+        (lambda: wedge.march(1, 0, [], 0, f=1, **LAW), ValueError, "2 or more values"),
     ],
 )  # fmt: skip
 def test_what_is_refused_is_told(

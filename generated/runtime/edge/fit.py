@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.polynomial import polynomial
 
-from ..arrays import real
+from ..arrays import number, real
 from ..types import Edges, Values
 from .average import averaged, nothing
 
@@ -308,18 +308,6 @@ def _table(x: Any, values: Any, name: str) -> tuple[Any, Any]:
             f"and {x[at + 1]:.6g} at the next: sort the nodes along x, and give each node once"
         )
     return x, values
-
-
-def number(value: Any, name: str, kind: str = "finite") -> float:
-    """One number that is "finite", "non-negative finite" or "positive finite".
-
-    Raises TypeError if it is not a real number, ValueError if it is not of this kind.
-    """
-    found = real(value, name)
-    signs = {"finite": (-1, 0, 1), "non-negative finite": (0, 1), "positive finite": (1,)}
-    if np.ndim(found) or not (math.isfinite(found) and np.sign(found) in signs[kind]):
-        raise ValueError(f"{name} must be one {kind} number; got {value!r:.60}")
-    return float(found)
 
 
 def _at_root(b: Any, length: float, limit: float) -> Any:

@@ -125,11 +125,16 @@ def slip_zone(
     >>> f"{d:.4g} m, to {error:.1g}"
     '0.0002317 m, to 3e-05'
     """
-    order = _known_order(order, L_N, L_T)
+    most = 1 if L_N is None or L_T is None else 2
+    order = most if order is None else order
+    demand_order(order)
+    if order > most:
+        raise ValueError("order 2 needs L_N and L_T: give both, or leave the order out")
 
     def zones(*half_cycle: Any) -> Any:
-        first, second = (HalfCycle(*half_cycle).to_order(n).zone() for n in (1, 2))
-        return (first, second)[order - 1], np.abs(second - first)
+        second = HalfCycle(*half_cycle)
+        first = second._replace(L_N=0.0, L_T=0.0, h=np.inf).zone()
+        return second.zone() if order == 2 else first, np.abs(second.zone() - first)
 
     given = _coefficients(K_N, L_N, K_T, L_T, unknown=np.nan) | {"da": da}
     return evaluated(zones, given, {"f": f} if h is None else {"f": f, "h": h}, SlipZone)
@@ -173,7 +178,8 @@ def reach(
         return np.minimum(np.minimum(np.abs(K_N / L_N), np.abs(K_T / L_T)), h)
 
     unknown = np.nan if L_N is None and L_T is None and h is None else 0.0
-    given = _coefficients(K_N, L_N, K_T, L_T, unknown)
+    L_N, L_T = (unknown if value is None else value for value in (L_N, L_T))
+    given = {"K_N": K_N, "L_N": L_N, "K_T": K_T, "L_T": L_T}
     return evaluated(least, given, {} if h is None else {"h": h})
 
 
@@ -186,7 +192,6 @@ def tractions(
     L_N: Values | None = None,
     L_T: Values | None = None,
     da: Values = 0.0,
-    order: int | None = None,
     share: Values = 1.0,
     back: bool = False,
     mean: Values = 0.0,
@@ -202,8 +207,8 @@ def tractions(
     ----------
     s : array_like
         Distance inward from the position of the edge at the highest shear load [m].
-    K_N, K_T, f, L_N, L_T, da, order
-        As in slip_zone.
+    K_N, K_T, f, L_N, L_T, da
+        As in slip_zone; of the first order unless L_N and L_T are given.
     share : array_like, optional
         Completed part of the half-cycle, from 0 to 1; all loads change linearly.
     back : bool, optional
@@ -232,10 +237,9 @@ def tractions(
     """
     if not isinstance(back, bool | np.bool_):
         raise TypeError(f"back must be True or False, one value for all; got {back!r:.60}")
-    order = _known_order(order, L_N, L_T)
 
     def evaluate(s: Any, share: Any, mean: Any, *half_cycle: Any) -> Any:
-        rising = HalfCycle(*half_cycle).to_order(order)
+        rising = HalfCycle(*half_cycle)
         share = np.where((share >= 0) & (share <= 1), share, np.nan)
         start, end = (1.0, 1 - share) if back else (0.0, share)
         half = rising.part(start, end)
@@ -262,7 +266,6 @@ def slip_range(
     L_N: Values | None = None,
     L_T: Values | None = None,
     da: Values = 0.0,
-    order: int | None = None,
 ) -> Array:
     """Slip range of a cycle next to a single edge.
 
@@ -270,7 +273,7 @@ def slip_range(
 
     Parameters
     ----------
-    s, K_N, K_T, f, L_N, L_T, da, order
+    s, K_N, K_T, f, L_N, L_T, da
         As in tractions.
     E_star : array_like
         Composite modulus, see E_star() [Pa].
@@ -291,11 +294,10 @@ def slip_range(
     >>> f"{slip_range(0.0, 1e10, 1e6, f=0.5, E_star=1e11):.3g}"
     '3.77e-07'
     """
-    order = _known_order(order, L_N, L_T)
 
     def evaluate(s: Any, *values: Any) -> Any:
         *half_cycle, E_star = values
-        half = HalfCycle(*half_cycle).to_order(order)
+        half = HalfCycle(*half_cycle)
         R_0, R_1 = half.stuck()
         u = np.maximum(half.zone() - s, 0.0)
         slip = R_0 * u**1.5 / 1.5 - R_1 * u**2.5 / 2.5
@@ -305,22 +307,10 @@ def slip_range(
     return evaluated(evaluate, given, {"f": f, "E_star": E_star})
 
 
-def _known_order(order: Any, L_N: Any, L_T: Any) -> int:
-    """The order asked for, or else the highest one that the coefficients allow.
-
-    Raises TypeError unless the order is a whole number, ValueError unless it is allowed.
-    """
-    most = 1 if L_N is None or L_T is None else 2
-    order = most if order is None else order
-    demand_order(order)
-    if order > most:
-        raise ValueError("order 2 needs L_N and L_T: give both, or leave the order out")
-    return int(order)
-
-
 def _coefficients(K_N: Any, L_N: Any, K_T: Any, L_T: Any, unknown: float = 0.0) -> dict[str, Any]:
-    """The coefficients in the order of HalfCycle, with a number in place of unknown ones."""
-    L_N, L_T = (unknown if value is None else value for value in (L_N, L_T))
+    """The coefficients in the order of HalfCycle; L_N and L_T are unknown unless both are given."""
+    if L_N is None or L_T is None:
+        L_N = L_T = unknown
     return {"K_N": K_N, "L_N": L_N, "K_T": K_T, "L_T": L_T}
 
 
@@ -342,10 +332,6 @@ class HalfCycle(NamedTuple):
     def sense(self) -> Any:
         """The direction of slip, +1 or -1."""
         return np.where(self.K_T < 0, -1.0, 1.0)
-
-    def to_order(self, order: int) -> "HalfCycle":
-        """The half-cycle with the terms of this order."""
-        return self if order == 2 else self._replace(L_N=0.0, L_T=0.0, h=np.inf)
 
     def part(self, start: Any, end: Any) -> "HalfCycle":
         """From one instant to another one, counted from 0 to 1; all loads change linearly."""

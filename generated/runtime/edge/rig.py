@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arrays import number
 from ..reasons import MEANINGS
 from ..types import Contact, Edges, Regime
-from .fit import number
 from .near import slip_zone
 
 MATCH_RTOL = 1e-8

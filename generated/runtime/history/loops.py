@@ -47,24 +47,22 @@ from ..types import Array, Contact
 from .nearest import ROUNDING
 
 
-def stick_zone_of_loop(
-    body: Body, own: Own, P: Array, M: Array, Q: Array, sigma: Array, *, f: Array, E_star: Array
-) -> Contact:
+def stick_zone_of_loop(body: Body, own: Own, f: Array, loads: Array) -> Contact:
     """The contact under P_E; NaN unless M = 0, tilt and sigma are constant, and |Q| < f P.
 
-    All arguments have the same shape.  Time lies along their last axis, which the results lack.
+    E* = 1; f and own have one instant.
+    loads: P, M, Q and sigma; time lies along their last axis, which the results lack.
     """
-    own = {name: value[..., :1] for name, value in own.items()}
-    f, E_star = f[..., :1], E_star[..., :1]
+    P, M, Q, sigma = loads
     known = np.all((M == 0) & (sigma == sigma[..., :1]), axis=-1)
     known &= np.all(abs(Q) < f * P * (1 - ROUNDING), axis=-1)
     extremes = np.min(P, axis=-1, keepdims=True), np.max(P, axis=-1, keepdims=True)
     between = np.concatenate([P, sum(extremes) / 2], axis=-1)
-    contacts = contact(body, own, np.where(known[..., None], between, np.nan), 0.0, E_star)
+    contacts = contact(body, own, np.where(known[..., None], between, np.nan), 0.0, 1.0)
     # the tilt of a flat punch whose load acts at a quarter of its width from its centre
-    unit = np.min(P / (E_star * (contacts.a + contacts.c)[..., :-1]), axis=-1)
+    unit = np.min(P / (contacts.a + contacts.c)[..., :-1], axis=-1)
     known &= np.ptp(contacts.alpha, axis=-1) <= ROUNDING * unit
     largest = [np.max(sign * Q - f * P, axis=-1, keepdims=True) for sign in (1, -1)]
     load = np.where(known[..., None], -sum(largest) / (2 * f), np.nan)
-    zone = contact_at_tilt(body, own, load, contacts.alpha[..., -1:], E_star)
+    zone = contact_at_tilt(body, own, load, contacts.alpha[..., -1:], 1.0)
     return Contact(*(value[..., 0] for value in zone))

@@ -34,9 +34,6 @@ from ..forward import UNIT, each_contact
 from ..slip.zone import each_zone_of_regime
 from ..types import Array, Contact, Edges, March, Regime
 
-LOADS = ("P", "M", "Q", "sigma")
-"""The loads of a history, in the order of their rows."""
-
 MAX_LAST_STEP = 0.99
 """Largest step from the last instant back to the first, as a part of the way between the states."""
 
@@ -50,14 +47,9 @@ LOAD_RTOL = 1e-12
 class _Way(NamedTuple):
     """How the loads move.
 
-    Attributes
-    ----------
-    progress : ndarray
-        From 0 to 1; NaN where the loads are out of proportion.
-    start : ndarray of int
-        The instant at which the half-cycle began that leads to an instant.
-    returns : ndarray of bool
-        Whether the loads go on in one direction between reversals.
+    progress  from 0 to 1; NaN where the loads are out of proportion
+    start     the instant at which the half-cycle began that leads to an instant
+    returns   whether the loads go on in one direction between reversals
     """
 
     progress: Array
@@ -86,18 +78,14 @@ def in_phase(body: Body, own: Own, f: Array, loads: Array, mixed: bool) -> tuple
 
     # part of the whole half-cycle up to each instant; of a mixed one only the ends are known
     sense = np.where(_at(way.progress, way.start) == 0, 1, -1)
-    rise, shape = sense * (loads - _at(loads, way.start)), way.progress.shape
-    now = np.broadcast_to(np.arange(shape[-1]), shape)
+    rise = sense * (loads - _at(loads, way.start))
+    now = np.broadcast_to(np.arange(rise.shape[-1]), way.progress.shape)
     part = _half_cycle(contact, (way.start, now), rise, roundings)
-    part["regime"] = regime
+    asked = ~np.isnan(m) & ~refused & (regime != Regime.MIXED)
+    part["regime"] = np.where(asked, regime, Regime.NONE)
     ends = (regime == Regime.MIXED) & (way.progress == (1 + sense) / 2)
-    asked = np.broadcast_to(~np.isnan(m) & ~refused & (regime != Regime.MIXED), shape)
-    zone = np.where(ends, [m, n], np.nan)
-    given, constants, own = (
-        {name: np.broadcast_to(value, shape)[asked] for name, value in values.items()}
-        for values in (part, constants, own)
-    )
-    zone[:, asked] = solved(each_zone_of_regime, body, given, constants, own, Edges)
+    found = solved(each_zone_of_regime, body, part, constants, own, Edges)
+    zone = np.where(ends, [m, n], found)
     a, c = (np.minimum(edge, _at(edge, way.start)) for edge in contact[:2])
     rounding = LOAD_RTOL * (a + c)
     inside = (zone[0] <= a + rounding) & (zone[1] <= c + rounding)
@@ -114,10 +102,10 @@ def in_phase(body: Body, own: Own, f: Array, loads: Array, mixed: bool) -> tuple
 # ---------------------------------------------------------------- the mean shear load
 
 
-def is_limited(regime: int, loads: Array) -> bool:
-    """Whether the shear load that the stick zone of a cycle carries has a limit below f P."""
-    rocks = regime == Regime.FULL_STICK and np.ptp(loads[2]) == np.ptp(loads[3]) == 0
-    return rocks or regime in (Regime.LARGE, Regime.MIXED)
+def is_limited(regime: Array, loads: Array) -> Array:
+    """Whether the shear load that the stick zones of cycles carry has a limit below f P."""
+    rocks = (regime == Regime.FULL_STICK) & np.all(np.ptp(loads[2:], axis=-1) == 0, axis=0)
+    return rocks | (regime == Regime.LARGE) | (regime == Regime.MIXED)
 
 
 # ---------------------------------------------------------------- how the loads move

@@ -1,25 +1,31 @@
 """Load histories and steady cycles of a body: the functions that a generated module calls."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from contextlib import AbstractContextManager, nullcontext
 from functools import cache, partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import Numbers, numbers_of, shape_of
+from ..arrays import number, numbers_of, shape_of
 from ..body import Body
 from ..chunks import any_lazy, over_chunks
 from ..cycle import Own, contact, slip_range
 from ..types import Array, History, March, Regime, SteadyCycle, StickZone, Values
 from . import refine
 from .loops import stick_zone_of_loop
-from .march import LOADS, in_phase, is_limited
+from .march import in_phase, is_limited
 from .reversals import exact_history
 
-_INSTANTS = {name: "t" for name in History._fields} | {"q": "t,p", "slip": "t,p"}
-_CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": "p"}
+LOADS = ("P", "M", "Q", "sigma")
+"""The loads of a history, in the order of their rows."""
+
+_AXES: dict[Any, dict[str, str]] = {
+    March: dict.fromkeys(March._fields, "t"),
+    History: dict.fromkeys(History._fields, "t") | {"q": "t,p", "slip": "t,p"},
+    SteadyCycle: dict.fromkeys(SteadyCycle._fields, "") | {"slip_range": "p", "q": "p"},
+}
 """Axes of the results: t is time, p the points."""
 
 WHOLE = ("intervals", "regime", "rounds")
@@ -32,180 +38,119 @@ MIXED_ERROR = 1e-7
 """Error of a zone from stick_zone with mixed=True, relative to the contact width."""
 
 
-def march(
-    body: Body,
-    own: Own,
-    P: Values,
-    M: Values,
-    Q: Values,
-    sigma: Values,
-    f: Values,
-    E_star: Values,
-) -> March:
+def march(body: Body, own: Own, given: Own) -> March:
     """A steady cycle instant by instant."""
-    numbers = _numbers(own, (P, M, Q, sigma), f, E_star, least=2)
-    if any_lazy(numbers.values()):
-        axes = dict.fromkeys(March._fields, "t")
-        lazy: March = over_chunks(partial(march, body), "march", numbers, (own,), axes)
-        return lazy
-    states, cycles, regimes = _in_phase(body, tuple(own), numbers, False)
-    constants = np.broadcast_arrays(*(numbers[name] for name in ("f", *own)), states.regime)[:-1]
-    limited = np.isin(regimes, (Regime.LARGE, Regime.FULL_STICK))
-    for case in map(tuple, np.argwhere(limited)):
-        if is_limited(regimes[case], cycles[:, *case]):
-            friction, *parameters = (value[case][0] for value in constants)
-            here = dict(zip(own, parameters, strict=True))
-            with np.errstate(all="ignore"):
-                found = refine.steady_cycle(
-                    body, here, friction, cycles[:, *case], np.zeros(0), ROUGH_TOL
-                )
-            if found.regime == Regime.NO_STICK:
-                states.m[case] = states.n[case] = np.nan
-                states.left[case] = states.right[case] = 0
-                states.regime[case] = Regime.NO_STICK
-    return states
-
-
-def history(
-    body: Body,
-    own: Own,
-    P: Values,
-    M: Values,
-    Q: Values,
-    sigma: Values,
-    f: Values,
-    E_star: Values,
-    x: Values | None,
-    tol: float,
-) -> History:
-    """Stick zone, shear traction, slip and work at each instant of any load history."""
-    _demand(x, tol)
-    numbers = _numbers(own, (P, M, Q, sigma), f, E_star)
-    if any_lazy(numbers.values()):
-        call = partial(history, body, x=x, tol=tol)
-        lazy: History = over_chunks(
-            call, "history", numbers, (own,), _INSTANTS, np.asarray(x).shape
-        )
-        return lazy
-    found: History = _each(_history, History, _INSTANTS, body, own, numbers, x, tol)
+    found: March = _answer(March, partial(_march, body), (), 2, own, **given)
     return found
 
 
-def steady_cycle(
-    body: Body,
-    own: Own,
-    P: Values,
-    M: Values,
-    Q: Values,
-    sigma: Values,
-    f: Values,
-    E_star: Values,
-    x: Values | None,
-    tol: float,
-) -> SteadyCycle:
+def history(body: Body, own: Own, given: Own, x: Any, tol: float) -> History:
+    """Stick zone, shear traction, slip and work at each instant of any load history."""
+    solve = partial(_each, History, partial(_history, body), x, _demand(x, tol))
+    found: History = _answer(History, solve, np.shape(x), 1, own, **given)
+    return found
+
+
+def steady_cycle(body: Body, own: Own, given: Own, x: Any, tol: float) -> SteadyCycle:
     """The steady cycle to which a closed load history settles."""
-    _demand(x, tol)
-    numbers = _numbers(own, (P, M, Q, sigma), f, E_star)
-    if any_lazy(numbers.values()):
-        call = partial(steady_cycle, body, x=x, tol=tol)
-        lazy: SteadyCycle = over_chunks(
-            call, "steady_cycle", numbers, (own,), _CYCLES, np.asarray(x).shape
-        )
-        return lazy
-    numbers |= dict(zip(LOADS, _closed([numbers[k] for k in LOADS]), strict=True))
-    zones = _exact(body, tuple(own), numbers)
-    found: SteadyCycle = _each(
-        partial(_cycle, zones), SteadyCycle, _CYCLES, body, own, numbers, x, tol
-    )
-    return found if np.ndim(found.m) else SteadyCycle(*(v if v is None else v[()] for v in found))
+    solve = partial(_cycles, body, x, _demand(x, tol))
+    found: SteadyCycle = _answer(SteadyCycle, solve, np.shape(x), 1, own, **given)
+    return found
 
 
 # ---------------------------------------------------------------- arguments and results
 
 
-def _closed(loads: list[Any]) -> list[Any]:
-    """The loads with their first instant repeated at the end, unless they already end with it."""
-    arrays = [np.atleast_1d(v) for v in loads]
-    instants = max(v.shape[-1] for v in arrays)
-    full = [np.broadcast_to(v, (*v.shape[:-1], instants)) for v in arrays]
-    if all(np.array_equal(v[..., 0], v[..., -1]) for v in full) and instants > 1:
-        return full
-    return [np.concatenate([v, v[..., :1]], axis=-1) for v in full]
+class _Cases(NamedTuple):
+    """All cases of the arguments, broadcast, for E* = 1.
+
+    loads            P, M, Q and sigma over E*, one row each; time lies along the last axis
+    f, E_star, own   as given; time has length one
+    """
+
+    loads: Array
+    f: Array
+    E_star: Array
+    own: dict[str, Array]
+
+    def constants(self, at: Any) -> tuple[Own, float]:
+        """The body's parameters and f of one case."""
+        return {name: value[at][0] for name, value in self.own.items()}, self.f[at][0]
 
 
-def _demand(x: Values | None, tol: float) -> None:
-    """Raise TypeError if tol is not a number or x is a Dask array, ValueError if tol is not
-    positive."""
-    if isinstance(tol, bool) or not isinstance(tol, int | float | np.number):
-        raise TypeError(f"tol must be a number; got {tol!r:.60}")
-    if not 0 < tol < math.inf:
-        raise ValueError(f"tol must be positive and finite; got {tol!r:.60}")
-    if any_lazy([x]):
-        raise TypeError("x must be a number or a NumPy array, not a Dask array: pass x.compute()")
+def _answer(
+    kind: Any,
+    solve: Callable[[_Cases], Any],
+    places: tuple[int, ...],
+    least: int,
+    own: Own,
+    **given: Values,
+) -> Any:
+    """What is found for all cases, chunk by chunk if an argument is a Dask array.
 
-
-def _numbers(
-    own: Own, loads: tuple[Values, ...], f: Values, E_star: Values, least: int = 1
-) -> Numbers:
-    """The arguments that broadcast, by name.
+    kind: of the result
+    places: the shape of the points
+    least: the smallest number of instants
+    given: loads, f and E_star
 
     Raises TypeError if an argument is not a real number, and ValueError if there are too few
     instants or a constant changes with time.
     """
-    named = dict(zip(LOADS, loads, strict=True))
-    numbers = numbers_of(named, {"f": f, "E_star": E_star, **own})
+    loads, constants = {name: given.pop(name) for name in LOADS}, {**given, **own}
+    numbers = numbers_of(loads, constants)
     shape = shape_of(numbers) or (1,)
     if shape[-1] < least:
-        wanted = ("one instant", "two instants")[least - 1]
-        raise ValueError(f"the last axis is time and must contain at least {wanted}; got {shape}")
+        raise ValueError(f"the last axis is time and must have {least} or more values; got {shape}")
     if any_lazy(numbers.values()):
-        return numbers
-    for name in ("f", "E_star", *own):
+        call = partial(_answer, kind, solve, places, least)
+        return over_chunks(call, kind.__name__.lower(), numbers, (own,), _AXES[kind], places)
+    for name in constants:
         value = np.atleast_1d(numbers[name])
         if np.any((value != value[..., :1]) & ~np.isnan(value)):
             raise ValueError(f"{name} must not change along the last axis, which is time")
-    return numbers
+    full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
+    held = {name: full[name][..., :1] for name in constants}
+    f, E_star = held.pop("f"), held.pop("E_star")
+    with np.errstate(all="ignore"):
+        return solve(_Cases(np.stack([full[k] for k in LOADS]) / E_star, f, E_star, held))
 
 
-def _each(
-    solve: Callable[..., Any],
-    kind: Any,
-    axes: Mapping[str, str],
-    body: Body,
-    own: Own,
-    numbers: Numbers,
-    x: Values | None,
-    tol: float,
-) -> Any:
-    """The results of all cases.
+def _demand(x: Any, tol: float) -> float:
+    """tol, if it is positive and x is not a Dask array.
 
-    solve: returns those of one case for E* = 1, and may leave out the last instants.
-    axes: axes of each result.
+    Raises TypeError or ValueError otherwise.
     """
-    *cases, instants = shape_of(numbers) or (1,)
-    full = {k: np.broadcast_to(v, (*cases, instants)) for k, v in numbers.items()}
+    if any_lazy([x]):
+        raise TypeError("x must be a number or a NumPy array, not a Dask array: pass x.compute()")
+    return number(tol, "tol", "positive finite")
+
+
+def _each(kind: Any, solve: Callable[..., Any], x: Any, tol: float, cases: _Cases) -> Any:
+    """The results of all cases, one after the other.
+
+    solve: returns those of one case, without the last instants if these are not known; None if
+        there is no contact.
+    """
+    *shape, instants = cases.loads.shape[1:]
     places = np.asarray(numbers_of({"x": np.zeros(0) if x is None else x}, {})["x"])
     points = np.ravel(places)
     lengths = {"t": (instants,), "p": (points.size,), "t,p": (instants, points.size), "": ()}
     results: dict[str, Any] = {
-        name: np.zeros((*cases, *lengths[axis]), dtype=np.int64)
+        name: np.zeros((*shape, *lengths[axis]), dtype=np.int64)
         if name in WHOLE
-        else np.full((*cases, *lengths[axis]), np.nan)
-        for name, axis in axes.items()
+        else np.full((*shape, *lengths[axis]), np.nan)
+        for name, axis in _AXES[kind].items()
     }
-    for at in _shown(list(np.ndindex(*cases))):
-        f, E_star = full["f"][at][0], full["E_star"][at][0]
-        parameters = {name: full[name][at][0] for name in own}
-        loads = np.array([full[name][at] / E_star for name in LOADS])
-        with _one_thread()(), np.errstate(all="ignore"):
-            found = solve(at, body, parameters, f, loads, points, tol)
-        for name, value in found._asdict().items():
-            scale = E_star if name in ("q", "work") else 1
+    for at in _shown(list(np.ndindex(*shape))):
+        with _one_thread()():
+            found = solve(at, *cases.constants(at), cases.loads[:, *at], points, tol)
+        for name, value in found._asdict().items() if found else ():
+            scale = cases.E_star[at][0] if name in ("q", "work") else 1
             results[name][(*at, *(slice(length) for length in np.shape(value)))] = scale * value
-    for name, axis in axes.items():
-        if "p" in axis:
-            shape = (*results[name].shape[:-1], *places.shape)
-            results[name] = None if x is None else results[name].reshape(shape)
+    for name, value in results.items():
+        if "p" in _AXES[kind][name]:
+            value = None if x is None else value.reshape((*value.shape[:-1], *places.shape))
+        results[name] = None if value is None else value[()]
     return kind(**results)
 
 
@@ -229,72 +174,84 @@ def _shown(cases: list[Any]) -> Iterable[Any]:
     return bar
 
 
-# ---------------------------------------------------------------- one case, for E* = 1
+# ---------------------------------------------------------------- cases, for E* = 1
+
+
+def _march(body: Body, cases: _Cases) -> March:
+    """The states of all cycles."""
+    states: March
+    states, cycles, regimes = in_phase(body, cases.own, cases.f, cases.loads, False)
+    limited = is_limited(regimes, cycles) & (regimes != Regime.MIXED)
+    for at in map(tuple, np.argwhere(limited)):
+        none = np.zeros(0)
+        found = refine.steady_cycle(body, *cases.constants(at), cycles[:, *at], none, ROUGH_TOL)
+        if found and found.regime == Regime.NO_STICK:
+            states.m[at] = states.n[at] = np.nan
+            states.left[at] = states.right[at] = 0
+            states.regime[at] = Regime.NO_STICK
+    return states
 
 
 def _history(
-    at: Any, body: Body, own: Own, f: float, loads: Array, x: Array, tol: float
-) -> History:
+    body: Body, at: Any, own: Own, f: float, loads: Array, x: Array, tol: float
+) -> History | None:
     """One history, up to the first instant whose loads are not known."""
     known = np.cumprod(np.all(np.isfinite(loads), axis=0), dtype=bool)
     if not np.any(known):
-        known[:1] = True
+        return None
     loads = loads[:, known]
     return exact_history(body, own, f, loads, x) or refine.history(body, own, f, loads, x, tol)
 
 
+def _cycles(body: Body, x: Any, tol: float, cases: _Cases) -> SteadyCycle:
+    """Steady cycles; their first instant is repeated at the end unless they already end with it."""
+    loads = cases.loads
+    if loads.shape[-1] == 1 or not np.array_equal(loads[..., 0], loads[..., -1]):
+        cases = cases._replace(loads=np.concatenate([loads, loads[..., :1]], axis=-1))
+    solve = partial(_cycle, body, *_exact(body, cases))
+    found: SteadyCycle = _each(SteadyCycle, solve, x, tol, cases)
+    return found
+
+
 def _cycle(
-    zones: StickZone,
-    at: Any,
     body: Body,
+    zones: StickZone,
+    changes: Array,
+    at: Any,
     own: Own,
     f: float,
     loads: Array,
     x: Array,
     tol: float,
-) -> SteadyCycle:
+) -> SteadyCycle | None:
     """One steady cycle; its zone is the exact one if that is permanent."""
     m, n, regime = (v[at] for v in zones)
     found = refine.steady_cycle(body, own, f, loads, x, tol)
-    if math.isnan(m) or (is_limited(regime, loads) and found.regime == Regime.NO_STICK):
+    if not found or math.isnan(m):
+        return found
+    if is_limited(regime, loads) and found.regime == Regime.NO_STICK:
         return found
     error = MIXED_ERROR if regime == Regime.MIXED else 0.0
     found = found._replace(m=m, n=n, regime=regime, error=error)
     constant = np.ptp(loads[0]) == np.ptp(loads[1]) == 0
     if x.size and constant and regime in (Regime.MODERATE, Regime.LARGE):
-        found = found._replace(slip_range=_exact_range(body, own, f, loads, x))
+        here = contact(body, own, loads[0, 0], loads[1, 0], 1.0)
+        exact = slip_range(body, own, x, (here, here, *changes[:, *at], f, 1.0))
+        found = found._replace(slip_range=exact)
     return found
 
 
-def _exact_range(body: Body, own: Own, f: float, loads: Array, x: Array) -> Array:
-    """The slip range of a half-cycle in phase, under constant normal loads."""
-    here = contact(body, own, loads[0, 0], loads[1, 0], 1.0)
-    varies = 2 if np.ptp(loads[2]) > np.ptp(loads[3]) * (here.a + here.c) else 3
-    change = loads[2:, np.argmax(loads[varies])] - loads[2:, np.argmin(loads[varies])]
-    dQ, dsigma = change if change[0] >= 0 else -change
-    return slip_range(body, own, x, here, here, dQ, dsigma, f, 1.0)
-
-
-def _in_phase(body: Body, own: tuple[str, ...], numbers: Numbers, mixed: bool) -> Any:
-    """What in_phase finds for arguments by name."""
-    shape = shape_of(numbers)
-    full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
-    loads = np.stack([full[name] / full["E_star"] for name in LOADS])
-    held = {name: full[name][..., :1] for name in own}
-    with np.errstate(all="ignore"):
-        return in_phase(body, held, full["f"][..., :1], loads, mixed)
-
-
-def _exact(body: Body, own: tuple[str, ...], numbers: Numbers) -> StickZone:
-    """Exact stick zones; NaN for cycles without an exact solution."""
-    states, *_ = _in_phase(body, own, numbers, True)
-    code = np.asarray(states.regime[..., 0])
+def _exact(body: Body, cases: _Cases) -> tuple[StickZone, Array]:
+    """Exact stick zones, NaN for cycles without an exact solution, and the largest changes in Q and
+    sigma over cycles in phase."""
+    loads, f, own = cases.loads, cases.f, cases.own
+    states, cycles, _ = in_phase(body, own, f, loads, True)
+    code = states.regime[..., 0]
     known = np.all(states.regime == code[..., None], axis=-1)
     m, n = (np.where(known, np.fmin.reduce(v, axis=-1), np.nan) for v in states[2:4])
     rest = np.isnan(m)
     if np.any(rest):
-        given = {name: np.broadcast_to(v, states.m.shape)[rest] for name, v in numbers.items()}
-        held = {name: given.pop(name) for name in own}
-        m[rest], n[rest], _ = stick_zone_of_loop(body, held, **given)
-        code = np.where(rest & np.isfinite(m), Regime.MODERATE, code)
-    return StickZone(m, n, code)
+        held = {name: value[rest] for name, value in own.items()}
+        m[rest], n[rest], _ = stick_zone_of_loop(body, held, f[rest], loads[:, rest])
+    zones = StickZone(m, n, np.where(rest & np.isfinite(m), Regime.MODERATE, code))
+    return zones, cycles[2:, ..., 1] - cycles[2:, ..., 0]

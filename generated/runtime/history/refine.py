@@ -127,19 +127,15 @@ def _slip_at(mesh: Elements, x: Array, slip: Array) -> Array:
 # ---------------------------------------------------------------- histories
 
 
-def history(body: Body, own: Own, f: float, loads: Array, x: Array, tol: float) -> History:
-    """A history with its error, on as many meshes as it needs.
+def history(body: Body, own: Own, f: float, loads: Array, x: Array, tol: float) -> History | None:
+    """A history with its error, on as many meshes as it needs; None if there is no contact.
 
     loads: P, M, Q and sigma, one row each.
     """
     if not np.any(touching(body, own, *loads[:2])[0] > -math.inf) or not f > 0:
-        none, whole = np.full(loads.shape[1], np.nan), np.zeros(loads.shape[1], dtype=np.int64)
-        field = np.full((loads.shape[1], x.size), np.nan)
-        zone = none, none, none, none, whole, whole
-        return History(*zone, field, field, none, none)
-    found: History = _refined(
-        partial(_history_on, body, own, f, loads, x), partial(_compare_instants, f * loads[0]), tol
-    )
+        return None
+    solve = partial(_history_on, body, own, f, loads, x)
+    found: History = _refined(solve, partial(_compare_instants, f * loads[0]), tol)
     return found
 
 
@@ -189,15 +185,16 @@ def _compare_instants(limit: Array, fine: _Found, coarse: _Found) -> Array:
 # ---------------------------------------------------------------- steady cycles
 
 
-def steady_cycle(body: Body, own: Own, f: float, loads: Array, x: Array, tol: float) -> SteadyCycle:
-    """A steady cycle with its error, on as many meshes as it needs.
+def steady_cycle(
+    body: Body, own: Own, f: float, loads: Array, x: Array, tol: float
+) -> SteadyCycle | None:
+    """A steady cycle with its error, on as many meshes as it needs; None if contact is lost.
 
     loads: P, M, Q and sigma, one row each; those of the last instant are those of the first.
     """
-    nan, none = math.nan, np.full(x.size, np.nan)
     touches = touching(body, own, *loads[:2])[0] > -math.inf
     if not (np.all(touches) and np.all(np.isfinite(loads)) and f > 0):
-        return SteadyCycle(nan, nan, Regime.NONE, none, none, nan, 0, nan, nan)
+        return None
     found: SteadyCycle = _refined(partial(_cycle_on, body, own, f, loads, x), _compare_rounds, tol)
     return found
 

@@ -46,7 +46,6 @@ class Interface:
 
         bounds   f p
         changes  change in shear under full stick
-        beside   of each element the nearest one that is in contact before the step
         swept    of each element the nearest one that is in contact throughout the step, if an edge
                  moves
         parts    part of the step for which the element is in contact
@@ -62,7 +61,6 @@ class Interface:
             self._bounds[~(path.a + path.c > 0)] = 0.0
             with np.errstate(invalid="ignore"):
                 self._changes[1:] = full_stick(ends, *path[4:6], *path[2:4])
-        self._beside = _nearest_marked(self._bounds[:-1] > 0)
         a, c = path.a[:, None], path.c[:, None]
         always = -np.minimum(a[:-1], a[1:]) <= ends[:-1]
         always &= ends[1:] <= np.minimum(c[:-1], c[1:])
@@ -74,10 +72,8 @@ class Interface:
         self._parts = np.where((moves & np.any(always, axis=1))[:, None], part, 1.0)
 
     def step(self, row: int, guess: Any = None) -> Regime:
-        """Take the step to a row of the path, from a guess of the status after it if there is one.
-
-        Otherwise the guess is the status before it; where contact begins the surfaces slip like
-        those beside it.
+        """Take the step to a row of the path, from a guess of the status after it; without one,
+        from the status before it.
         """
         if not self._first < row < self._first + len(self._bounds):
             self._prepare(row - 1)
@@ -101,8 +97,7 @@ class Interface:
             return Regime.COMPUTED if np.any(self.status) else Regime.FULL_STICK
         trial = self.shear if math.isnan(path.a[row - 1]) else self.shear + self._changes[k]
         trial = trial + (Q - w @ trial) * self.mesh.rise
-        guess = self.status[self._beside[k - 1]] if guess is None else guess
-        found = self._solver.nearest(trial, self.bound, guess)
+        found = self._solver.nearest(trial, self.bound, self.status if guess is None else guess)
         if found is None:
             return Regime.UNSOLVED
         self.shear, v, self.status = found
