@@ -7,6 +7,7 @@ from pathlib import Path
 
 from derive.command.errors import BadClaimsFile
 from derive.command.files import Unreadable, bytes_of
+from derive.reading.statements import begins
 
 _LARGEST = 5_000_000
 """The largest size of a LaTeX file, in bytes."""
@@ -256,14 +257,8 @@ def _groups(body: str, kind: str) -> list[list[str]]:
         depth += (match[0] == r"\begin") - (match[0] == r"\end")
         row = body[start : match.end()]
         if (match[0] == r"\\" and depth == 0) or (not match[0] and row.strip()):
-            if not groups or _begins(row):
+            if not groups or begins(row):
                 groups.append([])
             groups[-1].append(row)
             start = match.end()
     return groups
-
-
-def _begins(row: str) -> bool:
-    """Whether a row has its own left side and does not continue the row before it."""
-    plain = re.sub(r"&|\\[,;:! ]|\s", " ", row).strip()
-    return not re.match(rf"{_RELATION}|\+|-", plain) and bool(re.search(_RELATION, plain))

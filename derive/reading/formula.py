@@ -49,7 +49,6 @@ _BINDING = _ALONG.keys() - {"diff"}
 
 _ROUNDED_FROM = 3
 """A decimal number with at least this many digits may be a rounded one."""
-_RELATION = re.compile(r"<=|>=|==|=|<|>|~|[(),]")
 
 
 @dataclass(frozen=True)
@@ -86,51 +85,31 @@ def equation(text: str, names: Names, rough: bool = False) -> tuple[Expr, Relati
 
     rough: whether the relation may be ~.
     """
-    start, end, sign = _relation(text, names)
-    if sign == Relation.LIKE and not rough:
-        why = "~ cannot be checked without a limit"
-        remedy = "add as = 'x -> 0' to the claim, or equate the leading terms with ="
-        raise BadFormula(names.where, text, start, why, remedy)
-    left = formula(text[:start], names)
-    return left, sign, formula(" " * end + text[end:], names)
+    return _read(text, names, lambda reader: reader.equation(rough), "relation")
 
 
 def sides(text: str, names: Names) -> tuple[str, str]:
     """Return the text of the left and of the right side; raises BadFormula."""
-    start, end, _ = _relation(text, names)
-    return text[:start].strip(), text[end:].strip()
-
-
-def _relation(text: str, names: Names) -> tuple[int, int, Relation]:
-    """Return the place of the only relation, and the relation; raises BadFormula."""
-    relations, depth = list[re.Match[str]](), 0
-    for each in _RELATION.finditer(text):
-        depth += (each[0] == "(") - (each[0] == ")")
-        if depth == 0 and each[0] not in "(),":
-            relations.append(each)
-    if len(relations) != 1:
-        column = relations[1].start() if relations else len(text)
-        why = "there are two relations here" if relations else "there is no relation here"
-        raise BadFormula(names.where, text, column, why, "write exactly one, as in left = right")
-    return *relations[0].span(), Relation(relations[0][0].replace("==", "="))
+    sign = _read(text, names, lambda reader: reader.tree.whole.children[1], "relation")
+    return text[: column(sign)].strip(), text[column(sign) + len(sign) :].strip()
 
 
 def unknown(text: str, names: Names) -> list[str]:
     """Return all unknown names in a text; a bound variable is known only inside its call."""
     found = set[str]()
-    for part in re.split(r"<=|>=|==|=|~", text):
+    for start in ("relation", "text"):
         try:
-            tree = parse(part, names.words)
+            whole = parse(text, names.words, start).whole
         except BadText:
             continue
         bound = {
             id(name)
-            for call in tree.whole.find_data("call")
+            for call in whole.find_data("call")
             if call.children[0] in _BINDING
             for name in (*names_in(call.children[1]), call.children[2])
             if name == call.children[2]
         }
-        found |= {str(each) for each in names_in(tree.root) if id(each) not in bound}
+        found |= {str(each) for each in names_in(whole) if id(each) not in bound}
     return sorted(found - names.symbols.keys() - {"oo"})
 
 
@@ -146,25 +125,15 @@ def condition(text: str, names: Names) -> Boolean:
 
 def approach(text: str, names: Names) -> tuple[Expr, Expr]:
     """Read a limit such as "c - x -> 0" as an expression and its end; raises BadFormula."""
-    parts = text.split("->")
-    if len(parts) != 2:
-        raise BadFormula(names.where, text, 0, "this is not a limit", "write one such as x -> 0")
-    first = formula(parts[0], names)
-    end = parts[1].strip()
-    if end in ("oo", "-oo"):
-        return first, oo if end == "oo" else -oo
-    return first, formula(" " * (len(parts[0]) + 2) + parts[1], names)
+    return _read(text, names, lambda reader: reader.approach(), "relation")
 
 
-def _read(text: str, names: Names, convert: Callable[["_Reader"], Any]) -> Any:
-    if len(text) > LONGEST:
-        why = f"the formula has {len(text)} characters, and at most {LONGEST} are read"
-        remedy = "define parts of it as symbols"
-        raise BadFormula(names.where, text[:LONGEST], LONGEST, why, remedy)
+def _read(text: str, names: Names, convert: Callable[["_Reader"], Any], start: str = "text") -> Any:
     try:
-        return convert(_Reader(parse(text, names.words), names))
+        return convert(_Reader(parse(text, names.words, start), names))
     except BadText as error:
-        raise BadFormula(names.where, text, error.column, error.why, error.remedy) from error
+        shown = error.given[: 2 * LONGEST]
+        raise BadFormula(names.where, shown, error.column, error.why, error.remedy) from error
 
 
 class _Reader(Meaning):
@@ -173,6 +142,23 @@ class _Reader(Meaning):
     def __init__(self, tree: Tree, names: Names) -> None:
         super().__init__(tree, names.symbols)
         self.names = names
+
+    def equation(self, rough: bool) -> tuple[Expr, Relation, Expr]:
+        """Return the sides and the relation of an equation."""
+        left, sign, right = self.tree.whole.children
+        if sign == "->":
+            raise self.refusal(sign, "a limit is not an equation", "write it in `as`")
+        if sign == "~" and not rough:
+            remedy = "add as = 'x -> 0' to the claim, or equate the leading terms with ="
+            raise self.refusal(sign, "~ cannot be checked without a limit", remedy)
+        return self.value(left), Relation(str(sign).replace("==", "=")), self.value(right)
+
+    def approach(self) -> tuple[Expr, Expr]:
+        """Return an expression and its end, which may be infinite."""
+        left, sign, right = self.tree.whole.children
+        if sign != "->":
+            raise self.refusal(sign, "this is not a limit", "write one such as x -> 0")
+        return self.value(left), self._end(right, "limit")
 
     def named(self, node: Token) -> Expr:
         """Return the expression for a name; raises UnknownName."""

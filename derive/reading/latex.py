@@ -97,7 +97,7 @@ def _of_side(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterator[
         token = tokens[position]
         found = [cut for cut in cuts if tuple(texts[position : position + len(cut)]) == cut]
         cut = max(found, key=len, default=())
-        if cut and not (token.type == "DIFF" and any(each.type == "INT" for each in tokens)):
+        if cut:
             if "LIM" in kinds and kinds[position - 1] == "TO" and {"+", "-"} & {*cut[-2:]}:
                 why = "a limit from one side is not read"
                 raise Unclear(token.at, why, "write the claim with `as`, or as text")
@@ -128,7 +128,7 @@ def _bound(tokens: Sequence[Token], by: Sequence[str] = ("DIFF", "SUM", "LIM")) 
     """Return the letters along which an integral, a sum or a limit is taken."""
     found, kinds = set[str](), [each.type for each in tokens]
     for n, kind in enumerate(kinds):
-        if kind in by and (kind != "DIFF" or "INT" in kinds):
+        if kind in by:
             after = n + (1 if kind == "DIFF" else 3)
             found.update(each.text for each in tokens[after : after + 1])
     return frozenset(t for t in found if (len(t) == 1 and t.isalpha()) or t in GREEK)

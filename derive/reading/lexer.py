@@ -94,28 +94,27 @@ _UPRIGHT = {
 }
 """Functions and constants whose name is printed upright."""
 _WORDS = {
-    "AND": "and|so that|with|hence|thus|therefore|i.e",
+    "AND": "and|so that|with|hence|thus|therefore|i.e|where",
     "OR": "or|or else",
-    "WHERE": "for|for all|for any|for every|if|when|whenever|where|as|at|in|on|provided"
+    "WHERE": "for|for all|for any|for every|if|when|whenever|as|at|in|on|provided"
     "|provided that|while|as long as|in the limit|valid for",
-    "ELSE": "otherwise|else|elsewhere",
+    "WHERE ELSE": "otherwise|else|elsewhere",
+    "": "which|that|since",
 }
-_KINDS = {word: kind for kind, words in _WORDS.items() for word in words.split("|")}
-_KINDS["where"] = "AND"
-CLAUSES = frozenset(word.split()[0] for word in _KINDS if _KINDS[word] != "ELSE") | {
-    *("which", "that", "since")
-}
+_KINDS = {word: kinds.split() for kinds, words in _WORDS.items() for word in words.split("|")}
+CLAUSES = frozenset(word.split()[0] for word in _KINDS)
 """Words that start a clause."""
 _ENVIRONMENTS = {
     **dict.fromkeys(("split", "aligned", "gathered", "alignedat"), "LINES"),
     **dict.fromkeys(("cases", "dcases", "rcases", r"\{cases", r"\{dcases", r"\{array"), "BEGIN"),
+    "array": "FRAME",
 }
 """Environments whose rows are lines, or have a value and a condition each.  Others are refused as
 tables, except for an array with equations around all of a display."""
 CONDITIONS = frozenset(("ORDER", "TO", "NE", "RELATED"))
 """Relations of a condition, if they follow an equation after a comma or a wide space."""
 RELATIONS = CONDITIONS | {"EQUAL", "ROUGH", "PROPTO"}
-_AROUND = frozenset(("{", "BEGIN", "LINES", "FRAME"))
+_AROUND = frozenset(("{", "BEGIN", "FRAME"))
 """Brackets and environments that say nothing if they enclose all of a display."""
 _UNITS = frozenset("gmsJNW")
 """Units of one letter.  K may be an elliptic integral."""
@@ -146,9 +145,8 @@ _TOKEN = re.compile(
         \s*\{{?\s*(?P<relation>{_ROUGHLY})\s*\}}?)
     | (?P<dots>\.\s*\.\s*\.)
     | (?P<row>\\\\\*?(?:\[[^\]]*\])?)
-    | (?P<begin>(?:\\left\s*)?(?P<curly>\\\{{)?\s*\\begin\s*\{{(?P<opening>[A-Za-z]+\*?)\}}
-        (?:(?:(?<=array\}})|(?<=edat\}}))\s*\{{[^{{}}]*\}})?)
-    | (?P<end>\\end\s*\{{(?P<ending>[A-Za-z]+\*?)\}}(?:\s*\\right\s*\.)?)
+    | (?P<environment>(?P<curly>\\\{{\s*)?\\(?:(?P<begin>begin)|end)\s*\{{(?P<name>[A-Za-z]+\*?)\}}
+        (?(begin)(?:(?:(?<=array\}})|(?<=edat\}}))\s*\{{[^{{}}]*\}})?))
     | (?P<mixed>\\(?:text|mbox|hbox|textrm|textnormal)\s*
         \{{(?P<mixture>(?:[^{{}}$]*\$[^$]*\$)+[^{{}}$]*)\}})
     | (?P<roman>\{{\s*\\(?:rm|it|bf|sf)(?![A-Za-z])\s*(?P<old>[^{{}}\\]*)\}})
@@ -182,9 +180,6 @@ class Token(NamedTuple):
         return self.text.removeprefix(r"\text{").removesuffix("}")
 
 
-_NO_TOKEN = Token("", "", 0)
-
-
 @dataclass
 class Unclear(Exception):
     """The LaTeX cannot be read, or can be read in two ways, from a place on."""
@@ -208,7 +203,7 @@ def plain(tokens: Sequence[Token]) -> str:
 
 def tokens_of(latex: str) -> list[Token]:
     """Cut a display, or the LaTeX of a symbol; raise Unclear if its brackets do not match."""
-    return _differentials(_nested(_unframed(_indices_first(scan(latex)))))
+    return _differentials(_indices_first(_unframed(_nested(scan(latex)))))
 
 
 def scan(latex: str, start: int = 0, end: int | None = None) -> list[Token]:
@@ -234,15 +229,11 @@ def _command(match: re.Match[str], before: list[Token]) -> list[Token]:
     return [Token(kind, other or text, match.start())]
 
 
-def _begin(match: re.Match[str], _: list[Token]) -> list[Token]:
-    name = (match["curly"] or "") + match["opening"]
-    return [
-        Token(_ENVIRONMENTS.get(name, "FRAME"), rf"\begin{{{match['opening']}}}", match.start())
-    ]
-
-
-def _end(match: re.Match[str], _: list[Token]) -> list[Token]:
-    return [Token("END", rf"\end{{{match['ending']}}}", match.start())]
+def _environment(match: re.Match[str], _: list[Token]) -> list[Token]:
+    side, name = match["begin"] or "end", match["name"]
+    other = "FRAME" if name in _ENVIRONMENTS else "TABLE"
+    kind = _ENVIRONMENTS.get((match["curly"] or "").strip() + name, other)
+    return [Token(kind if match["begin"] else "END", rf"\{side}{{{name}}}", match.start())]
 
 
 def _number(match: re.Match[str], before: list[Token]) -> list[Token]:
@@ -298,8 +289,10 @@ def _worded(
     if not is_unit and (len(inner) <= 1 or not any(map(str.isalpha, inner))):
         return letters
     word = " ".join(re.sub(r"\\(?:[,;:! ]|$)|~", " ", inner).split()).strip(" ,.;")
-    kind = "TEXT" if is_unit else _KINDS.get(word.lower().strip(" :"), "TEXT")
-    return [Token(kind, rf"\text{{{word}}}" if kind == "TEXT" else rf"\{kind.lower()}", at)]
+    kinds = () if is_unit else _KINDS.get(word.lower().strip(" :"), ())
+    return [Token(kind, rf"\{kind.lower()}", at) for kind in kinds] or [
+        Token("TEXT", rf"\text{{{word}}}", at)
+    ]
 
 
 def _in_script(before: list[Token]) -> bool:
@@ -316,8 +309,7 @@ _READERS: Mapping[str, Callable[[re.Match[str], list[Token]], list[Token]]] = {
     "number": _number,
     "order": _order,
     "stacked": _stacked,
-    "begin": _begin,
-    "end": _end,
+    "environment": _environment,
     "mixed": _mixed,
     "roman": _words,
     "words": _words,
@@ -331,76 +323,72 @@ _CLOSING = {
 _PUNCTUATION = frozenset(("COMMA", ".", ";", "GAP"))
 
 
-def partner(tokens: Sequence[Token], at: int) -> int:
-    """Return the position of the bracket that closes the one at a position, or the end."""
-    depth = 0
-    for n in range(at, len(tokens)):
-        depth += (tokens[n].type in _CLOSING) - (tokens[n].type in _CLOSING.values())
-        if depth == 0:
-            return n
-    return len(tokens)
-
-
-def _unframed(tokens: list[Token]) -> list[Token]:
-    """Mark braces and environments around all; their rows are lines of the display."""
-    made, start, end = list(tokens), 0, len(tokens)
-    while start < end and made[start].type in (*_AROUND, "GAP"):
-        close = partner(made[:end], start)
-        if made[start].type != "GAP":
-            if close == end or any(t.type not in _PUNCTUATION for t in made[close + 1 : end]):
-                break
-            name = made[start].text[len(r"\begin{") : -1]
-            is_system = name == "array" and any(t.type in RELATIONS for t in made[start:close])
-            if is_system or name in ("", *_ENVIRONMENTS):
-                made[start] = made[start]._replace(type="LINES")
-            end = close
-        start += 1
-    return made
-
-
 def _nested(tokens: list[Token]) -> list[Token]:
-    """Give each token its depth; rows and columns outside cases are lines and wide spaces."""
-    made, opened = list[Token](), list[Token]()
-    for token, following in zip(tokens, [*tokens[1:], _NO_TOKEN], strict=True):
-        if token.type == "|":
-            is_right = bool(opened) and opened[-1].type == "LBAR"
-            token = token._replace(type="RBAR" if is_right else "LBAR")
-        kind, around = token.type, [each for each in opened if each.type != "LINES"]
-        in_cases = any(each.type == "BEGIN" for each in around)
+    """Give each token its depth, and tell rows and columns of cases from others."""
+    made, opened, depth, cases = list[Token](), list[Token](), 0, 0
+    for token in tokens:
+        kind = token.type
+        if kind == "|":
+            kind = "RBAR" if opened and opened[-1].type == "LBAR" else "LBAR"
+        elif kind == "TABLE":
+            raise _table(token)
+        elif cases:
+            kind = {"LINE": "ROW", "&": "COL"}.get(kind, kind)
+        while cases and kind in ("ROW", "COL", "END") and made[-1].type in _PUNCTUATION:
+            made.pop()
+        token, is_shown = token._replace(type=kind), kind != "LINES"
         if kind in _CLOSING.values():
             if not opened:
-                why = "a closing bracket matches nothing"
-                raise Unclear(token.at, why, "correct the brackets")
+                raise Unclear(token.at, "a closing bracket matches nothing", "correct the brackets")
             last = opened.pop()
             if _closing(last) != token.text:
                 raise _unclosed(last)
-            if last.type != "LINES":
-                made.append(token._replace(depth=len(around) - 1))
-            continue
+            is_shown = last.type != "LINES"
+            depth, cases = depth - is_shown, cases - (last.type == "BEGIN")
+        made += [token._replace(depth=depth)] if is_shown else []
         if kind in _CLOSING:
             opened.append(token)
-        if kind == "FRAME":
-            why = f"{token.text} is a table or a matrix, which is not read"
-            raise Unclear(token.at, why, "write what it says as claims in text")
-        if kind == "OVER" and not around:
-            why = r"\over divides the whole display"
-            raise Unclear(token.at, why, "put braces around the fraction")
-        if len(around) >= _DEEPEST:
+            depth, cases = depth + is_shown, cases + (kind == "BEGIN")
+        if depth > _DEEPEST:
             raise Unclear(token.at, "brackets are nested too deeply", "use fewer brackets")
-        if kind in ("LINE", "&"):
-            outside = "GAP" if around or kind == "&" else "LINE"
-            kind = ("ROW" if kind == "LINE" else "COL") if in_cases else outside
-        is_end = in_cases and kind in _PUNCTUATION and following.type in ("LINE", "&", "END")
-        if kind != "LINES" and not (is_end and kind != "GAP"):
-            made.append(token._replace(type=kind, depth=len(around)))
     if opened:
         raise _unclosed(opened[-1])
     return made
 
 
+def _unframed(tokens: list[Token]) -> list[Token]:
+    """Remove braces and environments around all; rows and columns in them are the display's."""
+    start = next((n for n, each in enumerate(tokens) if each.type != "GAP"), 0)
+    if tokens and tokens[start].type in _AROUND:
+        end, name = partner(tokens, start), tokens[start].text[len(r"\begin{") : -1]
+        is_system = name != "array" or any(t.type in RELATIONS for t in tokens[start:end])
+        if is_system and all(each.type in _PUNCTUATION for each in tokens[end + 1 :]):
+            return _unframed(
+                [each._replace(depth=each.depth - 1) for each in tokens[start + 1 : end]]
+            )
+    for each in tokens:
+        if each.type == "FRAME":
+            raise _table(each)
+        if each.type == "OVER" and not each.depth:
+            why = r"\over divides the whole display"
+            raise Unclear(each.at, why, "put braces around the fraction")
+    return [each for each in tokens if not (each.depth and each.type in ("LINE", "&", "GAP"))]
+
+
+def partner(tokens: Sequence[Token], at: int) -> int:
+    """Return the position of the bracket that closes the one at a position."""
+    after = range(at + 1, len(tokens))
+    return next(n for n in after if tokens[n].depth == tokens[at].depth)
+
+
 def _closing(token: Token) -> str:
     """Return the text that closes a bracket or an environment."""
     return _CLOSING.get(token.text, token.text.replace("begin", "end"))
+
+
+def _table(token: Token) -> Unclear:
+    why = f"{token.text} is a table or a matrix, which is not read"
+    return Unclear(token.at, why, "write what it says as claims in text")
 
 
 def _unclosed(token: Token) -> Unclear:
@@ -409,15 +397,12 @@ def _unclosed(token: Token) -> Unclear:
 
 def _indices_first(tokens: list[Token]) -> list[Token]:
     """Put an index before the exponent that is printed above it, as in c_s^2 for c^2_s."""
-    made, at = list(tokens), 0
-    while at < len(made):
-        if made[at].text == "^":
-            end = _past(made, at + 1)
-            if [each.text for each in made[end : end + 1]] == ["_"]:
-                after = _past(made, end + 1)
-                made[at:after] = [*made[end:after], *made[at:end]]
-                at = after - 1
-        at += 1
+    made = list(tokens)
+    for at in range(len(made)):
+        end = _past(made, at + 1)
+        if made[at].text == "^" and [each.text for each in made[end : end + 1]] == ["_"]:
+            after = _past(made, end + 1)
+            made[at:after] = [*made[end:after], *made[at:end]]
     return made
 
 
@@ -427,21 +412,22 @@ def _past(tokens: Sequence[Token], at: int) -> int:
 
 
 def _differentials(tokens: list[Token]) -> list[Token]:
-    r"""Read d in derivatives, and before a variable of integration, as \dd."""
-    texts, read = [each.text for each in tokens], set[int]()
+    r"""Tell the d of integrals from those of derivatives and changes, which become \dd."""
+    texts, derived = [each.text for each in tokens], set[int]()
     for above in (n + 2 for n, each in enumerate(tokens) if each.type == "FRAC"):
-        below = partner(tokens, above - 1) + 2
+        below = _past(tokens, above - 1) + 1
         starts = (texts[above - 1 : above + 1], texts[below - 1 : below + 1])
         if all(each in (["{", "d"], ["{", r"\dd"]) for each in starts):
-            read |= {above, below}
-    is_upright = any(each.type == "DIFF" and n not in read for n, each in enumerate(tokens))
-    integrals = 0
-    for n, each in enumerate(tokens[:-1]):
-        integrals += each.type == "INT" and not is_upright
-        if integrals and n not in read and each.text == "d" and tokens[n + 1].type == "LETTER":
-            read.add(n)
-            integrals -= 1
-    return [
-        each._replace(type="DIFF", text=r"\dd") if n in read else each
-        for n, each in enumerate(tokens)
-    ]
+            derived |= {above, below}
+    is_upright = any(each.type == "DIFF" and n not in derived for n, each in enumerate(tokens))
+    made, integrals = list[Token](), 0
+    for n, each in enumerate(tokens):
+        integrals = 0 if each.type in RELATIONS and not each.depth else integrals
+        integrals += each.type == "INT"
+        follows = [after.type for after in tokens[n + 1 : n + 2]]
+        if n in derived or (each.type == "DIFF" and not integrals):
+            each = each._replace(type="CHANGE", text=r"\dd")
+        elif integrals and not is_upright and each.text == "d" and follows == ["LETTER"]:
+            each, integrals = each._replace(type="DIFF"), integrals - 1
+        made.append(each._replace(text=r"\mathrm{d}") if each.type == "DIFF" else each)
+    return made

@@ -54,10 +54,12 @@ _DERIVATIVE = (
 )
 _SLASHED = rf"(?:d|\\dd) ({_LETTER})/ (?:d|\\dd) ({_LETTER})"
 _FOUND = re.compile(rf"(?<!\S)(?:{_DERIVATIVE}|{_SLASHED}|(?!\\Gamma \(){_SYMBOL})")
-_PIECES = re.compile(
-    rf"(\\Delta |\\dd )??(?:({_LETTER})|({_ACCENT}) (?:({_LETTER})|\{{ ({_LETTER}{_HUNG})\}} ))"
-    rf"({_HUNG})({_CALL})"
-)
+_ACCENTED = re.compile(rf"({_ACCENT}) (?:({_LETTER})|\{{ ({_LETTER}{_HUNG})\}} )")
+_NAMED = {
+    r"\\Delta (?=\\?[A-Za-z])": "Delta_",
+    **{r"\\dd ": "d", r"\\lambda ": "lam", r"\( ": "_at_", "[,;] ": "_", r"[)\\ ]": ""},
+}
+"""What stands in a name for parts of a symbol; formulas may not hold lambda."""
 
 
 def symbols(
@@ -68,13 +70,9 @@ def symbols(
     functions: symbols of which anything in parentheses is the argument
     """
     text = "".join(token.text.replace(" ", "~") + " " for token in tokens)
-    integrates = any(each.type == "INT" for each in tokens)
     at = 0
     while match := _FOUND.search(text, at):
         start, at = match.start(), match.end()
-        if integrates and match[0].startswith(r"\dd "):
-            at = start + len(r"\dd ")
-            continue
         first, last, name = text.count(" ", 0, start), text.count(" ", 0, at), _name(match)
         value = _VALUE.match(text, at) if _spelled(tokens[first:last]) in functions else None
         if value:
@@ -92,27 +90,21 @@ def _name(match: re.Match[str]) -> str:
 
 
 def _symbol_name(text: str) -> str:
-    pieces = _PIECES.fullmatch(text)
-    assert pieces is not None
-    before, letter, accent, accented, inner, hung, call = pieces.groups()
-    own = (letter or accented or "").strip().removeprefix("\\")
-    own = "lam" if own == "lambda" else own  # formulas may not hold lambda
-    name = (_symbol_name(inner) if inner else own) + (f"_{_ACCENTS[accent]}" if accent else "")
-    for each in re.findall(rf"' |{_INDEX}|{_RAISED}", hung):
-        words = re.sub(r"[{}()\\]|\s", "", re.sub(r"^[_^] ", "", each))
-        words = re.sub("^,", "comma,", words)
-        if each[0] == "^" and words not in _SIGNS:
-            is_number = words.isdigit() or len(words) == 1
-            words = ("upper" if is_number else "") + words.replace(",", "")
-        name += "_" + "_".join(_SIGNS.get(word, word) for word in words.split(",") if word)
-    if before:
-        name = {"\\Delta ": "Delta_", "\\dd ": "d"}[before] + name
-    if call:
-        arguments = re.findall(_ARGUMENT, call[2:-2])
-        name += "_at_" + "_".join(
-            each.strip() if each[0].isdigit() else _symbol_name(each) for each in arguments
-        )
-    return name
+    text = _ACCENTED.sub(lambda match: f"{match[2] or match[3]}_{_ACCENTS[match[1]]} ", text)
+    text = re.sub(rf"' |{_INDEX}|{_RAISED}", _hung_name, text)
+    for part, name in _NAMED.items():
+        text = re.sub(part, name, text)
+    return text
+
+
+def _hung_name(match: re.Match[str]) -> str:
+    """Return what an index, an exponent or a prime adds to a name."""
+    words = re.sub(r"[{}()\\ ]", "", match[0].removeprefix("_ ").removeprefix("^ "))
+    words = re.sub("^,", "comma,", words)
+    if match[0][0] == "^" and words not in _SIGNS:
+        is_number = words.isdigit() or len(words) == 1
+        words = ("upper" if is_number else "") + words.replace(",", "")
+    return "_" + "_".join(_SIGNS.get(word, word) for word in words.split(",") if word)
 
 
 def _argument_name(text: str) -> str:

@@ -2,7 +2,7 @@ r"""Divide a display into statements, and tell conditions and remainders from eq
 
 a = b = c          a = b and a = c
 a < b = c          a < b and b = c
-u, v   u and v     u and v, if each has its own relation; a wide space also divides them
+u, v   u and v     u and v, if each has its own relation; a wide space or a row also divides them
 \pm, \mp           the equation with the upper signs, then with the lower signs
 u for v            u under the condition v; an inequality after an equation is also a condition
 u < v, |x| < a     u < v under the condition |x| < a; other inequalities in a list are statements
@@ -15,7 +15,7 @@ is then not read, unless they stand apart from it like a remark.
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import dropwhile, takewhile
+from itertools import groupby
 
 from derive.reading.lexer import (
     CLAUSES,
@@ -31,14 +31,8 @@ from derive.reading.lexer import (
 
 _MOST = 20_000
 """The largest number of characters in a display."""
-_JOINING = RELATIONS | {"SIGN", "PM", "OPERATOR"}
-"""Tokens after which, or before which, an expression continues."""
-_CUTS = {
-    **dict.fromkeys(("COMMA", ";", "AND"), "COMMA"),
-    **dict.fromkeys(("WHERE", "ELSE"), "WHERE"),
-    **{each: each for each in ("OR", "IMPLIES", "IFF")},
-}
-"""Tokens that stand between two entries of a display, and how they join them."""
+_JOINTS = ("WHERE", "OR", "IMPLIES", "IFF")
+"""Tokens that say how they join two entries of a display; others only divide them."""
 
 
 @dataclass
@@ -138,93 +132,83 @@ def _bounds_position(tokens: Sequence[Token]) -> bool:
     return "<" in shown and any(side.strip() in ("x", "| x |") for side in shown.split("<"))
 
 
+_CODES = {
+    **dict.fromkeys(("EQUAL", "ORDER", "ROUGH"), "="),
+    **dict.fromkeys(("TO", "NE", "RELATED", "PROPTO"), ">"),
+    **dict.fromkeys(("SIGN", "PM", "OPERATOR"), "+"),
+    **dict.fromkeys((*_JOINTS, "COMMA", ";", "AND"), ","),
+    **{"TEXT": "w", "LINE": "/", "ROW": "/", "GAP": " ", "&": " ", "COL": " "},
+}
+_BREAKS = [kind for kind, code in _CODES.items() if code in "/ "]
+"""A character for each token outside brackets; it is x for all others."""
+_BEGINS = r" *[^ ,/w=>+][^,/w]*[=>]"
+"""The codes of a formula with a left side of its own."""
+_DIVIDES = re.compile(rf"/(?=[w ]*{_BEGINS})|(?<=[^=>+ ]) (?={_BEGINS})")
+"""The code of a row or a wide space after which another statement begins."""
+
+
+def begins(row: str) -> bool:
+    """Whether a row of a display has its own left side and does not continue the row before it."""
+    code = _code(scan(row))
+    return "=" in code and re.match(rf"[w ]*{_BEGINS}", code) is not None
+
+
+def _code(tokens: Sequence[Token]) -> str:
+    return "".join("x" if each.depth else _CODES.get(each.type, "x") for each in tokens)
+
+
 def _pieces(tokens: Sequence[Token]) -> Iterator[tuple[str, list[Token]]]:
     """Yield what stands between two tokens that divide a display, with how it is joined."""
-    joint, piece = "COMMA", list[Token]()
-    for n, token in enumerate(tokens):
-        cut, kept = _place(token, joint, piece, tokens[n - 1 : n], tokens[n + 1 :])
-        if cut and piece:
-            yield joint, piece
-            joint, piece = "COMMA", []
-        if cut and joint == "COMMA":
-            joint = cut
-        if kept:
-            piece = [*piece, token]
-    if piece:
-        yield joint, piece
+    joint, code = "", _DIVIDES.sub(",", _code(tokens))
+    for is_joint, part in groupby(zip(code, tokens, strict=True), lambda each: each[0] == ","):
+        piece = [token for _, token in part]
+        if is_joint:
+            joint = next((each.type for each in piece if each.type in _JOINTS), "")
+        else:
+            yield from _without_remarks(joint, piece)
 
 
-def _place(
-    token: Token,
-    joint: str,
-    piece: Sequence[Token],
-    before: Sequence[Token],
-    rest: Sequence[Token],
-) -> tuple[str, bool]:
-    """Return how a token joins the pieces that it divides, if it does, and whether it is kept."""
-    kind = token.type
-    if kind == "GAP":
-        is_whole = bool(_relations(piece)) and piece[-1].type not in _JOINING
-        return "COMMA" * (is_whole and not token.depth and _begins(rest)), False
-    if kind == "LINE":  # a row without a relation, or with a sign first, continues the one before
-        after = list(dropwhile(lambda t: t.type in ("TEXT", "GAP"), rest))
-        return "COMMA" * _begins(after), False
-    if token.depth or kind not in (*_CUTS, "TEXT", "."):
-        return "", True
-    if kind in _CUTS:
-        return _CUTS[kind], kind == "ELSE"
-    if kind == ".":
-        return "", not _ends(rest)
-    if joint == "WHERE":
-        return "", True
-    if not piece:
-        stands_apart = token.words.endswith(":") or " " in token.words
-        return "", not (stands_apart or not rest or rest[0].type in (*_CUTS, "GAP", "LINE"))
-    if _may_be_unit(piece[-1], before[0], token.words):
-        return "", True
-    return ("", False) if _ends(rest) else ("WHERE", True)
+def _without_remarks(joint: str, piece: Sequence[Token]) -> Iterator[tuple[str, list[Token]]]:
+    """Leave out words that stand apart; words between two formulas begin a condition."""
+    kept = list[Token]()
+    for n, token in enumerate(piece):
+        if token.depth or token.type != "TEXT" or joint == "WHERE" or _belongs(piece, n, kept):
+            kept += [token] if token.depth or token.type not in _BREAKS else []
+        elif kept and any(each.type not in ("TEXT", ".", *_BREAKS) for each in piece[n + 1 :]):
+            yield joint, kept
+            joint, kept = "WHERE", [token]
+    while kept and kept[-1].type == ".":
+        kept.pop()
+    if kept:
+        yield joint, kept
 
 
-def _begins(tokens: Sequence[Token]) -> bool:
-    """Whether tokens begin with a relation that has a left side of its own."""
-    ends = (*_CUTS, "LINE", "TEXT")
-    ahead = list(takewhile(lambda t: t.depth or t.type not in ends, tokens))
-    first = next((each.type for each in ahead if each.type != "GAP"), "")
-    return bool(_relations(ahead)) and first not in _JOINING
-
-
-def _ends(rest: Sequence[Token]) -> bool:
-    """Whether an entry ends before these tokens, apart from words."""
-    after = list(dropwhile(lambda t: t.type in ("TEXT", "GAP"), rest))
-    is_cut = not after or after[0].type in (*_CUTS, "LINE")
-    return is_cut or (
-        len(after) < len(rest) and rest[-len(after) - 1].type == "GAP" and _begins(after)
-    )
-
-
-def _may_be_unit(last: Token, before: Token, words: str) -> bool:
-    """Whether the words after a formula may be a unit or another part of it."""
+def _belongs(piece: Sequence[Token], at: int, before: Sequence[Token]) -> bool:
+    """Whether words may be a unit, or another part of the formula beside them."""
+    words, beside = piece[at].words, piece[at + 1 : at + 2]
+    if not before:
+        is_alone = not beside or beside[0].type in _BREAKS
+        return not (is_alone or words.endswith(":") or " " in words)
     if words.startswith("(") or words.split()[0].lower() in CLAUSES:
         return False
-    return last.type == "NUMBER" or (
-        " " not in words and (before.type != "GAP" or last.text == "}")
-    )
+    is_near = piece[at - 1].type not in _BREAKS or before[-1].text == "}"
+    return before[-1].type == "NUMBER" or (" " not in words and is_near)
 
 
-def _with_condition(piece: list[Token]) -> Statement:
+def _with_condition(piece: Sequence[Token]) -> Statement:
     """Divide an entry from a condition in parentheses at its end, or below its relation."""
+    tokens = [each for each in piece if not each.type.startswith("UNDER ")]
     under = [
         each._replace(type=each.type.removeprefix("UNDER "))
         for each in piece
         if each.type.startswith("UNDER ")
     ]
-    made = Statement([each for each in piece if not each.type.startswith("UNDER ")])
-    start = max((n for n, t in enumerate(made.tokens) if t.text == "(" and not t.depth), default=0)
-    if start and made.tokens[-1].text == ")":
-        inner = [each._replace(depth=each.depth - 1) for each in made.tokens[start + 1 : -1]]
-        if _relations(inner):
-            made = Statement(made.tokens[:start], [inner])
-    return replace(made, conditions=[*made.conditions, *([under] if under else [])])
+    conditions = [under] if under else []
+    start = max((n for n, t in enumerate(tokens) if t.text == "(" and not t.depth), default=0)
+    inner = [each._replace(depth=each.depth - 1) for each in tokens[start + 1 : -1]]
+    if start and tokens[-1].text == ")" and _relations(inner):
+        tokens, conditions = tokens[:start], [inner, *conditions]
+    return Statement(tokens, conditions)
 
 
 # ------------------------------------------------------------------ chains of relations
@@ -273,10 +257,10 @@ def _one_sided(condition: list[Token]) -> list[list[Token]]:
 
 
 _REMAINDER = re.compile(
-    r"\( ((?:\\[A-Za-z]+|[A-Za-z])(?: _ (?:\w|\\[A-Za-z]+|\{ [^{}]*\}))?)"
-    r"(?: \^ (?:([1-9])|\{ (\d+(?:\.\d+)?)(?: / ([1-9]\d*))? \}))? \)"
+    r"[+-] \\mathcal\{O\} \( ((?:\\[A-Za-z]+|[A-Za-z])(?: _ (?:\w|\\[A-Za-z]+|\{ [^{}]*\}))?)"
+    r"(?: \^ (?:([1-9])|\{ (\d+(?:\.\d+)?)(?: / ([1-9]\d*))? \}))? \)$"
 )
-"""A symbol, or a power of it, in parentheses."""
+"""The order of a symbol, or of a power of it, as the last term."""
 
 
 def _without_remainder(side: list[Token]) -> tuple[list[Token], float, str]:
@@ -288,46 +272,30 @@ def _without_remainder(side: list[Token]) -> tuple[list[Token], float, str]:
             kept.pop()
         else:
             kept.append(each)
-    at = next(
-        (n for n, each in enumerate(kept) if each.text == r"\mathcal{O}" and not each.depth), 0
-    )
-    found = _REMAINDER.fullmatch(" ".join(each.text for each in kept[at + 1 :])) if at else None
-    if not found or kept[at - 1].type != "SIGN":
+    if not (found := _REMAINDER.search(" ".join(each.text for each in kept))):
         return kept, 0.0, ""
     order = float(found[2] or found[3] or 1) / float(found[4] or 1)
-    return kept[: at - 1], order, found[1].replace(" ", "")
+    return kept[: -len(found[0].split())], order, found[1].replace(" ", "")
 
 
 # ------------------------------------------------------------------ two signs
 
 
 def _signs(statement: Statement) -> list[Statement]:
-    r"""Return both readings of \pm and \mp; x_{1,2} is x_1 with the upper signs."""
-    if all(t.type != "PM" for part in (statement.tokens, *statement.conditions) for t in part):
+    r"""Return both readings of \pm and \mp."""
+    parts = [statement.tokens, *statement.conditions]
+    if all(each.type != "PM" for part in parts for each in part):
         return [statement]
-    return [
-        replace(
-            statement,
-            tokens=_signed(statement.tokens, upper),
-            conditions=[_signed(each, upper) for each in statement.conditions],
-        )
-        for upper in (True, False)
-    ]
+    both = ([_signed(each, plus) for each in parts] for plus in (r"\pm", r"\mp"))
+    return [replace(statement, tokens=first, conditions=others) for first, *others in both]
 
 
-def _signed(tokens: list[Token], upper: bool) -> list[Token]:
+def _signed(tokens: Sequence[Token], plus: str) -> list[Token]:
+    r"""Read \pm or \mp as plus, and the other as minus; x_{1,2} is x_1 with the upper signs."""
     made = list[Token]()
-    for n, each in enumerate(tokens):
-        follows = tokens[n + 1].text if n + 1 < len(tokens) else ""
-        if each.type == "PM":
-            each = each._replace(type="SIGN", text="+" if (each.text == r"\pm") == upper else "-")
-        if each.text == "+" and follows != "}" and (not made or made[-1].type in _BEFORE):
-            continue
-        made.append(each)
+    for each in tokens:
+        sign = each._replace(type="SIGN", text="+" if each.text == plus else "-")
+        made.append(sign if each.type == "PM" else each)
         if " ".join(t.type for t in made[-6:]) == "_ { NUMBER COMMA NUMBER }":
-            made[-4:-1] = [made[-4] if upper else made[-2]]
+            made[-4:-1] = [made[-4 if plus == r"\pm" else -2]]
     return made
-
-
-_BEFORE = RELATIONS | {"{", "(", "[", "COMMA"}
-"""Tokens after which a plus sign says nothing."""

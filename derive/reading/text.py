@@ -28,27 +28,13 @@ Node = Call | Token
 _MISTAKES = {
     "//": ("// rounds down", "write / for a quotient"),
     "==": ("== is not allowed in the condition of a profile", "write <, <=, > or >="),
-    "!=": ("!= is not allowed in the condition of a profile", "write <, <=, > or >="),
-    "<<": ("<< is not a comparison", "write <"),
-    ">>": (">> is not a comparison", "write >"),
-    ":=": ("a formula cannot contain an assignment", "write only the right-hand side of g(x)"),
-    "->": ("an arrow has no meaning in a formula", "put a space between - and >, or leave it out"),
     "=": ("a formula cannot contain an assignment", "write only the right-hand side of g(x)"),
     "^": ("^ does not denote a power", "write ** for a power, such as x**2"),
     ".": ("a formula cannot contain attributes", "use a point only in decimal numbers"),
-    **dict.fromkeys("[]", ("[ ] are not allowed in a formula", "write ( ) to group")),
-    **dict.fromkeys("{}", ("{ } are not allowed in a formula", "write ( ) to group")),
-    **dict.fromkeys("'\"`", ("text in quotes is not allowed in a formula", "leave it out")),
-    "!": ("! has no meaning in a formula", "leave it out"),
-    "%": ("% has no meaning in a formula", "write a percentage as a number, such as 0.05"),
-    "@": ("@ is not allowed, because a formula has no matrices", "write * for a product"),
-    ";": ("; is not allowed, because only one formula can be given", "leave it out"),
-    ":": (": has no meaning in a formula", "leave it out"),
-    "\\": ("\\ has no meaning in a formula", "write g(x) as in Python, not as in LaTeX"),
-    "$": ("$ has no meaning in a formula", "write g(x) as in Python, not as in LaTeX"),
-    "#": ("a formula cannot contain a comment", "describe the profile with --title"),
+    **dict.fromkeys("[]{}", ("{} is not allowed in a formula", "write ( ) to group")),
 }
 """Why a sign is refused, and what to do instead."""
+_NO_MEANING = ("{} has no meaning in a formula", "write it as in Python, with + - * / ** and ( )")
 _INSTEAD = {
     **dict.fromkeys("−–—‐‑‒﹣-", "write -"),
     **dict.fromkeys("×·⋅∙∗*", "write *"),
@@ -57,9 +43,6 @@ _INSTEAD = {
     **dict.fromkeys("≥⩾", "write >="),
     **dict.fromkeys("⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ", "write ** for a power, such as x**2"),
     **dict.fromkeys("πϖ𝜋", "write pi"),
-    **dict.fromkeys("√∛", "write sqrt(...), or **(1/3) for a cube root"),
-    **dict.fromkeys("½⅓⅔¼¾⅕⅛", "write the fraction, such as 1/2"),
-    **dict.fromkeys("∞", "leave it out, because a profile is finite"),
 }
 """What to write instead of a character that is not ASCII."""
 _EMPTY = ("the text is empty", "write a formula, such as x**2/(2*R)")
@@ -79,6 +62,8 @@ _NAMES = frozenset(("NAME", "PI", "TRUE"))
 _OPERANDS = _NAMES | {"NUMBER", "RPAR"}
 """Terminals after which no operand may follow."""
 _OPERANDS_BEGIN = _NAMES | {"NUMBER", "LPAR", "FUNCTION"}
+_RELATIONS = frozenset(("ORDER", "EQUAL", "NOT", "ARROW"))
+_ONE = "write exactly one, as in left = right or x -> 0"
 _AROUND = frozenset(("LPAR", "PREFIX", "NOT", "POWER"))
 """Terminals that nest what follows."""
 
@@ -124,22 +109,27 @@ def column(node: Node) -> int:
 @cache
 def _parser() -> Lark:
     grammar = (files("derive.reading") / "text.lark").read_text(encoding="utf-8")
-    return Lark(grammar, parser="lalr", lexer="basic", start="text", propagate_positions=True)
+    start = ["text", "relation"]
+    return Lark(grammar, parser="lalr", lexer="basic", start=start, propagate_positions=True)
 
 
-def parse(text: str, words: Words) -> Tree:
+def parse(text: str, words: Words, start: str = "text") -> Tree:
     """The tree of `text`, which may contain the names that `words` allows.
+
+    start: `text`, or `relation` for an equation or a limit, whose tree has two sides
 
     Raises BadText for the first token that does not fit.
     """
-    if len(text) > LONGEST:
-        why = f"the text has {len(text)} characters, but at most {LONGEST} are allowed"
-        raise refusal(text, LONGEST, why, "shorten it, or write a geometry file by hand")
-    parser, last = _parser().parse_interactive(text), Token("START", "")
+    longest = LONGEST if start == "text" else 2 * LONGEST
+    if len(text) > longest:
+        why = f"the text has {len(text)} characters, but at most {longest} are allowed"
+        raise refusal(text, longest, why, "shorten it, or write it in several parts")
+    parser, last = _parser().parse_interactive(text, start=start), Token("START", "")
     try:
         found = parser.lexer_thread.lex(parser.parser_state)  # type: ignore[no-untyped-call]
         for token in found:
-            if text[column(token) :][:2] in _MISTAKES:
+            pair = text[column(token) :][:2]
+            if pair in _MISTAKES and pair != token:
                 raise _unknown(text, column(token))
             here = _typed(token, last, words)
             parser.feed_token(here)
@@ -150,6 +140,12 @@ def parse(text: str, words: Words) -> Tree:
     except UnexpectedCharacters as error:
         raise _unknown(text, error.pos_in_stream or 0) from None
     except UnexpectedToken:
+        if start == "text" and here in _MISTAKES:
+            raise _unknown(text, column(here)) from None
+        if not here and "EQUAL" in parser.accepts():  # type: ignore[no-untyped-call]
+            raise refusal(text, len(text), "there is no relation here", _ONE) from None
+        if start == "relation" and here.type in _RELATIONS and last.type in _OPERANDS:
+            raise refusal(text, column(here), "there are two relations here", _ONE) from None
         raise _misplaced(text, here, last) from None
     for call in tree.whole.find_data("call"):
         name, *given = call.children
@@ -177,9 +173,10 @@ def _typed(token: Token, last: Token, words: Words) -> Token:
 
 def _unknown(text: str, at: int) -> BadText:
     """The error for a sign or a character that no formula may contain."""
-    for sign in (text[at : at + 2], text[at]):
-        if sign in _MISTAKES:
-            return refusal(text, at, *_MISTAKES[sign])
+    sign = text[at : at + 2] if text[at : at + 2] in _MISTAKES else text[at]
+    if sign.isascii() and sign.isprintable():
+        why, remedy = _MISTAKES.get(sign, _NO_MEANING)
+        return refusal(text, at, why.format(sign), remedy)
     called = unicodedata.name(text[at], "a character without a name")
     why = f"{text[at]!a} is {called} (U+{ord(text[at]):04X})"
     remedy = _INSTEAD.get(text[at], "write ASCII letters, digits and operators only")

@@ -130,8 +130,9 @@ class _Typed(Transformer[Any, Any]):
     # sums, products and powers
 
     def signed(self, sign: Token, term: _Code) -> _Code:
-        text = f"{sign.text.strip('+')}{term:product}"
-        return replace(term, text=text, level="", is_one=False)
+        if sign.text == "+":
+            return term
+        return replace(term, text=f"-{term:product}", level="", is_one=False)
 
     def added(self, left: _Code, sign: Token, term: _Code) -> _Code:
         if left.bound is not None and re.search(left.bound, term.text):

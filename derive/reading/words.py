@@ -53,36 +53,26 @@ class Function:
         return f"{self.least} to {self.most}"
 
 
-def _kink(argument: Expr, *_: Expr) -> Switches:
-    return [("kink", argument)]
+def _zeros(kind: str, *of: Callable[..., Expr]) -> Callable[..., Switches]:
+    """Return the switches of one kind, from expressions of the arguments."""
+    return lambda *arguments: [(kind, each(*arguments)) for each in of]
 
 
 def _kinks_between(*arguments: Expr) -> Switches:
     return [("kink", one - other) for one, other in combinations(arguments, 2)]
 
 
-def _logarithm(argument: Expr) -> Switches:
-    return [("log", argument.args[0] if isinstance(argument, sympy.Abs) else argument)]
-
-
 def _logarithms_at_one(*arguments: Expr) -> Switches:
     return [("log", 1 - argument) for argument in arguments]
 
 
-def _logarithms(argument: Expr) -> Switches:
-    return [("log", 1 + argument), ("log", 1 - argument)]
+def _inside(argument: Expr) -> Expr:
+    return argument.args[0] if isinstance(argument, sympy.Abs) else argument
 
 
-def _roots(argument: Expr) -> Switches:
-    return [("root", 1 + argument), ("root", 1 - argument)]
-
-
-def _root_at_one(argument: Expr) -> Switches:
-    return [("root", argument - 1)]
-
-
-def _pole(angle: Expr) -> Switches:
-    return [("pole", sympy.cos(angle))]
+_KINK = _zeros("kink", lambda argument, *_: argument)
+_AT_ONE = _zeros("root", lambda argument: argument - 1)
+_AT_BOTH = (lambda argument: 1 + argument, lambda argument: 1 - argument)
 
 
 def _one_over(function: Callable[[Expr], Expr]) -> Callable[[Expr], Expr]:
@@ -94,27 +84,27 @@ def _of_one_over(function: Callable[[Expr], Expr]) -> Callable[[Expr], Expr]:
 
 
 _OF_PROFILES = {
-    "Abs": Function(sympy.Abs, switches=_kink),
+    "Abs": Function(sympy.Abs, switches=_KINK),
     "sqrt": Function(sympy.sqrt),
-    "sign": Function(sympy.sign, r"\sgn", _kink),
-    "Heaviside": Function(sympy.Heaviside, switches=_kink),
+    "sign": Function(sympy.sign, r"\sgn", _KINK),
+    "Heaviside": Function(sympy.Heaviside, switches=_KINK),
     "Max": Function(sympy.Max, r"\max", _kinks_between, most=MANY),
     "Min": Function(sympy.Min, r"\min", _kinks_between, most=MANY),
     "Piecewise": Function(sympy.Piecewise, most=MANY),
     "exp": Function(sympy.exp, r"\exp"),
-    "log": Function(sympy.log, r"\ln \log", _logarithm),
+    "log": Function(sympy.log, r"\ln \log", _zeros("log", _inside)),
     "sin": Function(sympy.sin, r"\sin", like="circular"),
     "cos": Function(sympy.cos, r"\cos", like="circular"),
-    "tan": Function(sympy.tan, r"\tan \tg", _pole, "circular"),
-    "asin": Function(sympy.asin, r"\arcsin", _roots, "inverse circular"),
-    "acos": Function(sympy.acos, r"\arccos", _roots, "inverse circular"),
+    "tan": Function(sympy.tan, r"\tan \tg", _zeros("pole", sympy.cos), "circular"),
+    "asin": Function(sympy.asin, r"\arcsin", _zeros("root", *_AT_BOTH), "inverse circular"),
+    "acos": Function(sympy.acos, r"\arccos", _zeros("root", *_AT_BOTH), "inverse circular"),
     "atan": Function(sympy.atan, r"\arctan \arctg", like="inverse circular"),
     "sinh": Function(sympy.sinh, r"\sinh", like="hyperbolic"),
     "cosh": Function(sympy.cosh, r"\cosh", like="hyperbolic"),
     "tanh": Function(sympy.tanh, r"\tanh", like="hyperbolic"),
     "asinh": Function(sympy.asinh, r"\arsinh", like="inverse hyperbolic"),
-    "acosh": Function(sympy.acosh, r"\arcosh", _root_at_one, "inverse hyperbolic"),
-    "atanh": Function(sympy.atanh, r"\artanh", _logarithms, "inverse hyperbolic"),
+    "acosh": Function(sympy.acosh, r"\arcosh", _AT_ONE, "inverse hyperbolic"),
+    "atanh": Function(sympy.atanh, r"\artanh", _zeros("log", *_AT_BOTH), "inverse hyperbolic"),
 }
 _OF_CLAIMS = {
     "cot": Function(_one_over(sympy.tan), r"\cot \ctg", like="reciprocal circular"),

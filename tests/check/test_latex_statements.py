@@ -70,6 +70,7 @@ y = 1{,}5 a + 0{,}125 :: y = 1.5*a + 0.125
 q = p(x;a) - p(x;c) :: q = p_at_x_a - p_at_x_c
 a &= b & c &= d \\ e &= f :: a = b; c = d; e = f
 a \quad = \quad b :: a = b
+\mathrm{d}Q = \int_0^1 q\,\mathrm{d}s :: dQ = integral(q, s, 0, 1)
 y = \mathrm{e}^{-x/a} + {\rm e}^{2} :: y = exp(-x/a) + exp(2)
 y = e^2 + e^{3} :: y = e**2 + e**3
 y = \log_{10} x :: y = log(x)/log(10)
@@ -128,6 +129,7 @@ a = \sqrt{4\times10^5} = 0.105\ \mathrm{mm} :: the words 'mm' are not understood
 \operatorname{div} u = 0 :: the words 'div' are not understood
 a = 5\,\mathrm{N}/\mathrm{m} :: the words 'N' are not understood
 a = b, c, d = e :: c stands without a relation
+a = b \quad c \quad d = e :: c stands without a relation
 y = 1{,}500 a :: cannot be read from here on
 P = c [1 + O(a/R)] :: only understood as the last term
 P = c + \mathcal{O}(a/R) :: only understood as the last term

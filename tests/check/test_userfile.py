@@ -225,7 +225,7 @@ BAD_CLAIMS = {
         CIRCLE + "require = 'k = 1/2'\n",
         "require: 'k = 1/2' is an equation and not a condition: use `symbols`",
     ),
-    "limit": (CIRCLE + "as = 'r - 0'\n", "as: this is not a limit"),
+    "limit": (CIRCLE + "as = 'r = 0'\n", "as: this is not a limit"),
     "order": (CIRCLE + "order = 2\n", "`as` is missing: give `order` as a number"),
     "given a table": (CIRCLE + "given = [{ a = 1 }]\n", "given[0] must be a text"),
     "never": (CIRCLE + "require = 'r < 0'\n", "its conditions are never satisfied"),
