@@ -18,16 +18,15 @@
     report         findings                  evidence, errata and remarks in words; JSON
     documents      findings                  Markdown, LaTeX and HTML, by templates
     meanings       four answers of a user    the standard meanings of a paper's letters
-    entries        statement of a display    the entries of a claim, and what it may define
     draft          LaTeX file                a claims file for the user to complete
     accept         claims file               the same file with what a user accepted
     schema         tables of a claims file   typed records, or an error with its place
     mistakes       errors in a claims file   one error that reports all; the reason for one claim
     declarations   the file's own tables     body, ranges, units and spellings for all claims
-    context        body, symbols, equation   the equation with its calls replaced by formulas
-    printed        a claim's equation        its text, or the reading of its LaTeX to be accepted
+    context        body and symbols          their meanings; an equation without calls of formulas
     equation       a claim's equation        the comparison that it stands for
-    claim_table    table [[claims]]          a claim, which is unchecked if an entry is wrong
+    claim_table    table [[claims]]          a claim, with the reading of its LaTeX; unchecked if
+                                             an entry is wrong or the reading is not accepted
     userfile       claims file in TOML       its claims
     andresen2020/                            claims files of the paper that introduced the method
 

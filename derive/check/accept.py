@@ -5,7 +5,7 @@ Out:  the file with these entries, or an error and the file as it was.
 """
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,6 @@ from typing import Any
 import tomlkit
 from tomlkit.items import Comment, Table, Whitespace
 
-from derive.check.printed import Reading
 from derive.check.userfile import source
 from derive.command import files
 from derive.command.errors import BadClaimsFile
@@ -30,21 +29,23 @@ def demand_writable(path: Path) -> None:
         files.demand_writable(path.resolve())
 
 
-def accept(path: Path, readings: Sequence[Reading], symbols: Sequence[str] = ()) -> None:
+def accept(path: Path, readings: Mapping[str, str], symbols: Iterable[str] = ()) -> None:
     """Write the accepted readings of claims, and the accepted proposals for symbols, into the file.
 
     Raises BadClaimsFile and leaves the file unchanged if the new file would differ from the old
     one by more than these entries.
+
+    readings: by the labels of the claims
     """
     text, data = source(path)
     document = tomlkit.parse(text)
     is_kept = tomlkit.dumps(document) == text  # tomlkit may move claims after another table
-    for reading in readings:
-        for claims in (data["claims"], document["claims"]):
-            _accept(claims[reading.number - 1], reading.understood)
-    for name in symbols:
-        for known in (data["symbols"], document["symbols"]):
-            known[name]["is"] = known[name].pop("proposal")
+    for file in (data, document):
+        for claim in file["claims"]:
+            if claim["label"] in readings:
+                _accept(claim, readings[claim["label"]])
+        for name in symbols:
+            file["symbols"][name]["is"] = file["symbols"][name].pop("proposal")
     new = tomlkit.dumps(document)
     if not is_kept or tomllib.loads(new) != data:
         why = "the layout of this file does not allow the accepted entries to be inserted"

@@ -153,6 +153,7 @@ class Claim:
     symbols    the definitions of the symbols that it uses, as in the file; empty if there is none
     words      what the file says in words of its symbols and variables
     to_accept  the entry by which the file accepts its reading; empty if it does so or has none
+    obstacle   the reason why the claim cannot be judged even if this reading is accepted
     against    what the claim is compared with, in words
     units      a description of the units that do not fit; empty if they fit
     unchecked  the reason why the claim cannot be decided; empty if it can
@@ -166,10 +167,26 @@ class Claim:
     symbols: Mapping[str, str] = field(default_factory=dict)
     words: Mapping[str, str] = field(default_factory=dict)
     to_accept: str = ""
+    obstacle: str = ""
     against: str = ""
     units: str = ""
     unchecked: str = ""
     seconds: float | None = None
+
+    @property
+    def is_unread(self) -> bool:
+        """Whether its LaTeX, or a part of it, could not be read."""
+        is_read = self.text and (self.entry.accepted or not self.entry.unchecked)
+        return bool(self.entry.latex and self.unchecked and not is_read)
+
+    @property
+    def shown(self) -> dict[str, str]:
+        """What the user sees before accepting its reading."""
+        entry = self.entry
+        told = {"LaTeX": entry.latex.strip(), "understood": self.text}
+        told["in the file"] = entry.understood if entry.accepted else ""
+        told |= {**entry.beside, "unchecked": self.obstacle}
+        return {key: text for key, text in told.items() if text}
 
     def changed(self, **meant: Any) -> "Claim":
         """Return the claim with other fields of its meaning, such as other sides."""

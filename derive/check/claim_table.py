@@ -9,53 +9,50 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from msgspec.structs import replace as with_entries
 from sympy import Expr, Symbol
 
+from derive.check.bodies import body_of
 from derive.check.claim import AsMeant, Claim
-from derive.check.context import (
-    Context,
-    Meant,
-    as_text,
-    calls_in,
-    free,
-    with_real_bound,
-)
-from derive.check.declarations import Declarations
+from derive.check.context import Context, Meant, as_text, calls_in, free, with_real_bound
+from derive.check.declarations import Declarations, demand_name
 from derive.check.equation import Equation
 from derive.check.mistakes import Collected, limited, reason
-from derive.check.printed import Reading, may_be_rough, open_reading
-from derive.check.schema import Entry, Place, decoded
-from derive.command.errors import UserError
+from derive.check.schema import Entry, Formula, Place, decoded
+from derive.command.errors import BadFormula, UserError
 from derive.reading.formula import (
     Names,
     UnknownName,
     equation,
+    may_be_rounded,
     unknown,
     usable,
 )
 from derive.reading.formula import sides as sides_of
+from derive.reading.latex import Latex
+from derive.reading.lexer import plain
 from derive.reading.relation import Relation
+from derive.reading.statements import statements
 
 
 @dataclass
 class ClaimReader:
     """Reads the claims of a file in their order, because one may follow from others.
 
-    readings  the claims in LaTeX that are not accepted yet or cannot be read
     mistakes  the errors in claims, each of which makes its claim unchecked
     """
 
     declared: Declarations
-    readings: list[Reading] = field(default_factory=list)
     mistakes: list[UserError] = field(default_factory=list)
-    _read: dict[str, tuple[Relation, str, str]] = field(default_factory=dict)
+    _defined: dict[str, tuple[str, str]] = field(default_factory=dict)
     _made: dict[str, Claim] = field(default_factory=dict)
+    _contexts: dict[tuple[object, ...], Context] = field(default_factory=dict)
 
-    def claim(self, number: int, given: Mapping[str, Any], place: Place) -> Claim:
-        """Return a claim, which must have a label; `number` counts the claims from 1."""
+    def claim(self, given: Mapping[str, Any], place: Place) -> Claim:
+        """Return a claim, which must have a label."""
         wrong, seconds = Collected(), self.declared.seconds
         entry = decoded(Entry, given, place, wrong.noted)
         where, says = entry.place or Path(place.file).name, entry.says or entry.label
@@ -65,39 +62,64 @@ class ClaimReader:
             at=f"{Path(place.file).name}:{place.line}" if place.line else "",
             seconds=seconds,
         )
+        if not wrong.errors:
+            with wrong.noted():
+                own = entry.symbols
+                context = limited(seconds, place, lambda: self._context(place, entry.body, own))
+                claim = replace(claim, units=context.mismatch(claim.text, place))
+                claim = limited(seconds, place, lambda: self._claim(claim, place, context))
         if wrong.errors:
-            self.mistakes += wrong.errors
             why = "; ".join(reason(error, place) for error in wrong.errors)
-            return self._unread(number, claim, why)
-        try:
-            context = limited(
-                seconds, place, lambda: self.declared.context(place, entry.body, entry.symbols)
-            )
-            claim = replace(claim, units=context.mismatch(claim.text, place))
-            made = limited(seconds, place, lambda: self._claim(number, claim, place, context))
-        except UserError as error:
-            self.mistakes.append(error)
-            made = self._unread(number, claim, reason(error, place))
-        self._made[claim.entry.label] = made
-        return made
+            claim = replace(claim, unchecked=why)
+        self.mistakes += wrong.errors
+        self._made[entry.label] = claim
+        return claim
 
-    def _unread(self, number: int, claim: Claim, why: str) -> Claim:
-        """Return an unchecked claim, and record that its LaTeX cannot be read."""
-        if claim.entry.latex:
-            self.readings.append(Reading(number, claim.entry, "", why))
-        return replace(claim, unchecked=why)
+    def wrong_symbols(self, bodies: Iterable[object]) -> list[UserError]:
+        """Return the errors in symbols that have no meaning with the file's body or another one."""
+        place = self.declared.place
+        found, others = self._context(place).meant.wrong, list[Mapping[str, UserError]]()
+        for body in bodies:
+            with suppress(UserError):  # which makes the claim unchecked
+                others.append(self._context(place, body).meant.wrong)
+        return [error for name, error in found.items() if all(name in each for each in others)]
 
-    def _redefined(self, entry: Entry, place: Place, changed: Mapping[str, Any]) -> Context:
+    def _context(
+        self,
+        place: Place,
+        given: object = None,
+        own: Mapping[str, Formula] = MappingProxyType({}),
+        free: bool = False,
+    ) -> Context:
+        """Return the context of a claim with its own body, if it gives one, and own symbols.
+
+        free: whether symbols without a meaning are positive variables
+        """
+        body = self.declared.body if given is None else body_of(given, place)
+        for name in own:
+            demand_name(name, place)
+        texts = {name: str(formula).strip() for name, formula in own.items()}
+        key = (id(body), free, *sorted(texts.items()))
+        if key not in self._contexts:
+            meant = self._context(place, given).meant if own else Meant()
+            meant = meant.without(meant.with_users(own))
+            symbols = self.declared.symbols | texts
+            unknown = tuple(name for name, text in symbols.items() if free and not text)
+            symbols = {name: text for name, text in symbols.items() if name not in unknown}
+            self._contexts[key] = Context(self.declared, body, symbols, unknown, meant)
+        return self._contexts[key]
+
+    def _redefined(self, entry: Entry, place: Place, changed: Mapping[str, Formula]) -> Context:
         """Return the context with the symbols that the given claims define, and others changed."""
-        given = self._given(entry.given or (), place.inside("given"))
+        given = self._given(entry.given or [], place.inside("given"))
         own = {**entry.symbols, **changed}
         known = {**self.declared.symbols, **own}
         own |= {name: formula for name, formula in given.items() if not known.get(name)}
-        context = self.declared.context(place, entry.body, own, entry.given is not None)
+        context = self._context(place, entry.body, own, entry.given is not None)
         others = {name: formula for name, formula in given.items() if name not in own}
-        return context.replaced(others, place.inside("given")) if others else context
+        return context.replaced(others) if others else context
 
-    def _claim(self, number: int, claim: Claim, place: Place, context: Context) -> Claim:
+    def _claim(self, claim: Claim, place: Place, context: Context) -> Claim:
         """Return a claim; raise UserError if one of its entries is wrong."""
         entry, names, own = claim.entry, context.names(place), context
         if entry.unchecked:
@@ -106,27 +128,28 @@ class ClaimReader:
         place.demand(is_one, "`printed` and `latex` exclude each other", "give exactly one of them")
         try:
             if entry.latex:
-                reading = open_reading(number, entry, place, names, self.declared.spellings)
-                if reading is not None:
-                    self.readings.append(reading)
-                    why = "; ".join(filter(None, (reading.remedy, reading.why)))
-                    claim = replace(claim, text=reading.understood, to_accept=reading.to_accept)
-                    return _unjudged(claim, context, names, why)
-            left, relation, right = equation(claim.text, names, may_be_rough(entry, claim.text))
+                claim = _as_read(claim, place, names, self.declared.spellings)
+            if claim.to_accept:
+                return _unjudged(claim, context, names, claim.unchecked)
+            left, relation, right = equation(claim.text, names, _may_be_rough(entry, claim.text))
         except UnknownName as error:
-            why = self._lacking(unknown(error.given, names) or ["oo"], context.meant)
-            return replace(claim, unchecked=why) if claim.text else self._unread(number, claim, why)
+            lacking = unknown(error.given, names) or ["oo"]
+            return replace(claim, unchecked=context.lack(lacking))
         if entry.given is not None:
             context = self._redefined(entry, place, {})
             names = context.names(place)
-            left, relation, right = equation(claim.text, names, may_be_rough(entry, claim.text))
+            left, relation, right = equation(claim.text, names, _may_be_rough(entry, claim.text))
         undefined = {Symbol(name) for name in context.symbols} - context.meant.in_variables.keys()
         left, right = (with_real_bound(side, undefined) for side in (left, right))
-        self._read[entry.label] = relation, *sides_of(claim.text, names)
+        both = sides_of(claim.text, names)
+        name, formula = both if usable(both[0]) else reversed(both)
+        is_general = not (entry.symbols or entry.cases or entry.body is not None)
+        if is_general and relation == Relation.EQUAL and usable(name):
+            self._defined[entry.label] = name, formula
         through = _through(entry, left, names, place)
         sides = [side.xreplace({left: right}) for side in through] or [left, right]
         if lacking := [n for n in context.symbols if Symbol(n) in free(*sides) & undefined]:
-            return _unjudged(claim, context, names, self._lacking(lacking, context.meant))
+            return _unjudged(claim, context, names, context.lack(lacking))
         stated = Equation(
             self.declared,
             entry,
@@ -143,45 +166,24 @@ class ClaimReader:
         symbols, words = context.definitions(left, right, *through)
         made = replace(claim, meant=stated.meant(), symbols=symbols, words=words)
         made = replace(made, against=stated.against())
-        return made.changed(alone=self._alone(number, claim, place, own)) if entry.given else made
+        return made.changed(alone=self._alone(claim, place, own)) if entry.given else made
 
-    def _lacking(self, names: list[str], meant: Meant) -> str:
-        """Return the reason why a claim cannot be judged if some symbols have no meaning."""
-        if wrong := next((name for name in names if name in meant.wrong), ""):
-            return f"the symbol {wrong} has no meaning in this claim: {reason(meant.wrong[wrong])}"
-        names = [*dict.fromkeys(meant.missing.get(name, name) for name in names)]
-        have, them = ("symbols {} have", "them") if len(names) > 1 else ("symbol {} has", "it")
-        told = f"the {have.format(', '.join(names))} no meaning"
-        why = self.declared.paper.reasons(names)
-        return f"{told}: define {them} in [symbols] or [variables]{why}"
-
-    def _alone(self, number: int, claim: Claim, place: Place, context: Context) -> Claim | None:
+    def _alone(self, claim: Claim, place: Place, context: Context) -> Claim | None:
         """Return the claim without those given, if it can be judged by the file's own meanings."""
         entry = with_entries(claim.entry, given=None)
         try:
-            made = self._claim(number, replace(claim, entry=entry), place, context)
+            made = self._claim(replace(claim, entry=entry), place, context)
         except UserError:
             return None
         return None if made.unchecked else made
 
-    def _given(self, labels: Iterable[str], place: Place) -> dict[str, str]:
+    def _given(self, labels: list[str], place: Place) -> dict[str, str]:
         """Return the formulas of the symbols that earlier claims define."""
-        found = dict[str, str]()
         for label in labels:
-            why = f"{label!r} is not the label of an earlier claim"
-            remedy = "give the label of an earlier claim that can be read"
-            place.demand(label in self._read, why, remedy)
-            relation, *both = self._read[label]
-            name, formula = both if usable(both[0]) else reversed(both)
-            is_definition = relation == Relation.EQUAL and usable(name)
-            why = f"the claim {label!r} does not define a symbol"
-            place.demand(is_definition, why, "give claims of the form symbol = ...")
-            own = self._made[label].entry
-            why = f"the claim {label!r} has symbols, a body or cases of its own"
-            is_general = not (own.symbols or own.cases or own.body is not None)
-            place.demand(is_general, why, "state it without them, because others do not share them")
-            found[name] = formula
-        return found
+            why = f"{label!r} is not the label of an earlier claim of the form symbol = ..."
+            remedy = "give one that can be read and has no symbols, body or cases of its own"
+            place.demand(label in self._defined, why, remedy)
+        return dict(self._defined[label] for label in labels)
 
 
 def _unjudged(claim: Claim, context: Context, names: Names, why: str) -> Claim:
@@ -207,3 +209,64 @@ def _through(entry: Entry, left: Expr, names: Names, place: Place) -> tuple[Expr
     is_right = isinstance(left, Symbol) and is_equation and not is_argument
     place.demand(is_right, why, remedy)
     return first, second
+
+
+# ------------------------------------------------------------------ a claim in LaTeX
+
+
+def _as_read(claim: Claim, place: Place, names: Names, spellings: Mapping[str, str]) -> Claim:
+    """Return a claim with the reading of its LaTeX.
+
+    It is unchecked unless the file accepts this reading or another text for the same equation.
+    """
+    entry = claim.entry
+    spelled = {latex: name for name in names.symbols for latex in (name, *_usual(name))}
+    spelled |= spellings
+    understood = _understood(entry, place, spelled)
+    accepted = entry.understood if entry.accepted else ""
+    if entry.accepted:
+        read = equation(understood, names, rough=True)
+        if accepted and equation(accepted, names, rough=True) == read:
+            return claim
+    obstacle = ""
+    try:
+        equation(understood, names, _may_be_rough(entry, understood))
+    except BadFormula as fault:
+        obstacle = reason(fault, place)
+    to_accept = f'understood = "{understood}"' if entry.accepted else "accepted = true"
+    said = f"accepts {accepted}" if accepted else "does not accept it"
+    why = f"the LaTeX was read as {understood}, but the file {said}"
+    why = f"{why}: use --accept, or write {to_accept}{'; ' * bool(obstacle)}{obstacle}"
+    return replace(claim, text=understood, to_accept=to_accept, obstacle=obstacle, unchecked=why)
+
+
+def _may_be_rough(entry: Entry, text: str) -> bool:
+    """Whether an equation may use ~, because it has a limit or a rounded constant."""
+    return bool(entry.approach or entry.leading) or may_be_rounded(text)
+
+
+def _understood(entry: Entry, place: Place, spelled: Mapping[str, str]) -> str:
+    """Return the LaTeX of a claim, or one statement in its display, as text."""
+    latex, part = entry.latex, entry.part
+    found = statements(str(place), latex)
+    if part is None and len(found) != 1:
+        why = f"the LaTeX has {len(found)} statements"
+        raise place.bad(why, "give the number of one of them as `part`")
+    part = part or 1
+    if not 1 <= part <= len(found):
+        why = f"part = {part!r} is not the number of a statement in this display"
+        raise place.bad(why, f"write a number from 1 to {len(found)}")
+    chosen = found[part - 1]
+    if (chosen.conditions or chosen.order) and not (entry.require or entry.approach):
+        says = ", ".join(map(plain, chosen.conditions)) or rf"{chosen.small} \to 0"
+        why = f"the display also says {says}, but neither `require` nor `as` is given"
+        raise place.bad(why, "give the condition in `require`, or the limit in `as`")
+    return Latex(str(place), latex, spelled).read("equation", chosen.tokens)
+
+
+def _usual(name: str) -> list[str]:
+    r"""Return the usual LaTeX of a name: a_1 and a_{1} for a_1, \alpha for alpha."""
+    stem, _, index = name.partition("_")
+    letter = stem if len(stem) == 1 else rf"\{stem}"
+    short = [f"{letter}_{index}"] if len(index) == 1 else []
+    return [f"{letter}_{{{index}}}", *short] if index else [letter]

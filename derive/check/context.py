@@ -4,7 +4,7 @@ Context   the body, if there is one, the variables, and the symbols of the sourc
 Meant     the meanings of these symbols
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -14,7 +14,8 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
 from derive.check.bodies import ProvenBody, placed
-from derive.check.mistakes import limited
+from derive.check.declarations import Declarations
+from derive.check.mistakes import limited, reason
 from derive.check.schema import Place
 from derive.command.errors import UserError
 from derive.reading.formula import Names, equation, formula
@@ -26,11 +27,10 @@ from derive.reading.improper import (
     proper,
     typed,
 )
-from derive.reading.units import Call, Dimension, Units, parse_unit
-from derive.sheet.formulas import FormulaSheet
+from derive.reading.units import Call, Units, parse_unit
+from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import M, P, e, x
 
-PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
 _CALLS = (AppliedUndef, Derivative, Limit, *IMPROPER)
 
 
@@ -40,55 +40,66 @@ class Meant:
 
     as_written    meanings as in the file, with other symbols substituted and calls kept
     in_variables  meanings in terms of variables only
-    wrong         the error in the formula of a symbol, or of one that it uses, by its name
-    missing       for a symbol whose formula uses one without a meaning, the name of that one
+    lacking       for a symbol without a meaning, the name of the first that lacks one of its own
+    wrong         the error in the formula of such a symbol, if it has one
     uses          for each symbol, the names of all symbols that its definition uses
     """
 
     as_written: dict[Symbol, Expr] = field(default_factory=dict)
     in_variables: dict[Symbol, Expr] = field(default_factory=dict)
+    lacking: dict[str, str] = field(default_factory=dict)
     wrong: dict[str, UserError] = field(default_factory=dict)
-    missing: dict[str, str] = field(default_factory=dict)
     uses: dict[str, set[str]] = field(default_factory=dict)
 
-    def without(self, changed: Iterable[str]) -> "Meant":
-        """Return the meanings that do not depend on the symbols that are redefined."""
-        names = set(changed)
-        kept = {n: used for n, used in self.uses.items() if not (used | {n}) & names}
+    def without(self, names: Collection[str]) -> "Meant":
+        """Return the meanings of all but some symbols."""
         as_written, in_variables = (
-            {symbol: expr for symbol, expr in table.items() if symbol.name in kept}
+            {symbol: expr for symbol, expr in table.items() if symbol.name not in names}
             for table in (self.as_written, self.in_variables)
         )
-        return Meant(as_written, in_variables, uses=kept)
+        uses = {name: used for name, used in self.uses.items() if name not in names}
+        return Meant(as_written, in_variables, uses=uses)
+
+    def with_users(self, names: Collection[str]) -> set[str]:
+        """Return the names of some symbols and of all that use them."""
+        return {*names, *(n for n, used in self.uses.items() if not used.isdisjoint(names))}
 
 
 @dataclass(frozen=True)
 class Context:
     """What the equations of a claim may refer to.
 
-    variables  the variables by name
-    units      the units of variables and symbols, as far as they are declared
-    symbols    the formula of each symbol of the source as text; empty if it has none
-    place      the file
-    seconds    the time limit for reading one formula
-    own        the symbols of the body's formulas, each with the paper's symbol for it
-    words      what the file says in words of symbols and variables
+    file     what the file declares
+    body     the body whose formulas may be called, or None
+    symbols  the formula of each symbol of the source as text; empty if it has none
+    unknown  the symbols that stand for positive variables here
     """
 
+    file: Declarations
     body: ProvenBody | None
-    variables: Mapping[str, Expr]
-    units: Mapping[Symbol, Dimension]
     symbols: Mapping[str, str]
-    place: Place
-    seconds: float
-    own: Mapping[Symbol, Symbol] = field(default_factory=dict)
+    unknown: tuple[str, ...] = ()
     meant: Meant = field(default_factory=Meant)
-    words: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for name in self.symbols:
+            self._define(name)
 
     @property
     def sheet(self) -> FormulaSheet | None:
         """The formula sheet of the body, or None."""
         return self.body.sheet if self.body else None
+
+    @cached_property
+    def own(self) -> dict[Symbol, Symbol]:
+        """The symbols of the body's formulas, each with the paper's symbol for it."""
+        return self.file.letters_of(self.body)
+
+    @cached_property
+    def variables(self) -> dict[str, Expr]:
+        """The variables by name."""
+        unknown = {name: Symbol(name, positive=True) for name in self.unknown}
+        return {**self.file.variables_with(self.body), **unknown}
 
     def names(self, place: Place, symbols: Iterable[str] | None = None) -> Names:
         """Return the names that an equation may hold: symbols, by default all, and variables."""
@@ -99,60 +110,57 @@ class Context:
             str(place), {**self.variables, **{n: Symbol(n) for n in chosen}}, arities, meant
         )
 
-    @cached_property
-    def _renamed(self) -> dict[Symbol, Symbol]:
-        """The symbols of the body's formulas for which the paper has another letter."""
-        return {ours: theirs for ours, theirs in self.own.items() if ours != theirs}
-
     # -------------------------------------------------------------- meanings
 
-    def define(self, name: str, outer: tuple[str, ...] = ()) -> bool:
-        """Add the meaning of a symbol and of those that it uses; return whether it has one."""
+    def _define(self, name: str, outer: tuple[str, ...] = ()) -> str:
+        """Add the meaning of a symbol and of those that it uses.
+
+        Return the name of the symbol that lacks a meaning, or an empty text if none does.
+        """
         symbol, meant, text = Symbol(name), self.meant, self.symbols[name]
-        if symbol in meant.in_variables or name in meant.wrong or not text:
-            return symbol in meant.in_variables
-        place = self.place.at("symbols", name, f"symbols: {name}")
+        if symbol in meant.in_variables:
+            return ""
+        if not text or name in meant.lacking:
+            return meant.lacking.setdefault(name, name)
+        place = self.file.place.at("symbols", name, f"symbols: {name}")
         if name in outer:
-            circle = outer[outer.index(name) :]
-            why = f"it has a circular definition through {', '.join(circle)}"
-            error = place.bad(why, "define one of these symbols without the others")
-            meant.wrong.update(dict.fromkeys(circle, error))
-            return False
+            why = f"it has a circular definition through {', '.join(outer[outer.index(name) :])}"
+            meant.wrong[name] = place.bad(why, "define one of these symbols without the others")
+            return name
         others = {Symbol(other) for other in self.symbols if other != name}
-        names = self.names(place, [other for other in self.symbols if other != name])
+        names = self.names(place, [other.name for other in others])
+        seconds = self.file.seconds
         try:
-            found = limited(self.seconds, place, lambda: formula(text, names))
+            found = limited(seconds, place, lambda: formula(text, names))
             for inner in sorted(free(found) & others, key=str):
-                if not self.define(inner.name, (*outer, name)):
-                    if inner.name in meant.wrong:
-                        meant.wrong.setdefault(name, meant.wrong[inner.name])
-                    meant.missing[name] = meant.missing.get(inner.name, inner.name)
-                    return False
+                if lacking := self._define(inner.name, (*outer, name)):
+                    return meant.lacking.setdefault(name, lacking)
             found = with_real_bound(found, others - meant.in_variables.keys())
             written = found.xreplace(meant.as_written)
-            in_variables = limited(self.seconds, place, lambda: self.substitute(written))
+            in_variables = limited(seconds, place, lambda: self.substitute(written))
         except UserError as error:
             meant.wrong[name] = error
-            return False
+            return meant.lacking.setdefault(name, name)
         used = {each.name for each in found.free_symbols}
         meant.uses[name] = used.union(*(meant.uses.get(each, ()) for each in used))
         meant.as_written[symbol], meant.in_variables[symbol] = written, in_variables
-        return True
+        return ""
 
-    def replaced(self, formulas: Mapping[str, str], place: Place) -> "Context":
+    def lack(self, names: Iterable[str]) -> str:
+        """Say that symbols have no meaning, and why, or what the user can do."""
+        lacking = [*dict.fromkeys(self.meant.lacking.get(name, name) for name in names)]
+        if wrong := next((name for name in lacking if name in self.meant.wrong), ""):
+            error = self.meant.wrong[wrong]
+            return f"the symbol {wrong} has no meaning in this claim: {reason(error)}"
+        have, them = ("symbols {} have", "them") if len(lacking) > 1 else ("symbol {} has", "it")
+        told = f"the {have.format(', '.join(lacking))} no meaning"
+        why = self.file.paper.reasons(lacking)
+        return f"{told}: define {them} in [symbols] or [variables]{why}"
+
+    def replaced(self, formulas: Mapping[str, str]) -> "Context":
         """Return the context in which equations, but not other symbols, use other formulas."""
-        names = self.names(place)
-        table = {Symbol(name): formula(text, names) for name, text in formulas.items()}
-        for _ in table:
-            table = {symbol: expr.xreplace(table) for symbol, expr in table.items()}
-        is_open = any(expr.free_symbols & table.keys() for expr in table.values())
-        place.demand(not is_open, "the claims are circular", "remove one of them")
-        written = {symbol: expr.xreplace(self.meant.as_written) for symbol, expr in table.items()}
-        found = {symbol: self.substitute(expr) for symbol, expr in written.items()}
-        as_written = {**self.meant.as_written, **written}
-        in_variables = {**self.meant.in_variables, **found}
-        meant = replace(self.meant, as_written=as_written, in_variables=in_variables)
-        return replace(self, meant=meant, symbols={**self.symbols, **formulas})
+        symbols = {**self.symbols, **formulas}
+        return replace(self, symbols=symbols, meant=self.meant.without(formulas))
 
     def definitions(self, *exprs: Expr) -> tuple[dict[str, str], dict[str, str]]:
         """Return the formulas, and the words, of names in expressions and of those they use."""
@@ -160,23 +168,28 @@ class Context:
         names = names.union(*(self.meant.uses.get(name, ()) for name in names))
         symbols, words = (
             {name: table[name] for name in table if name in names}
-            for table in (self.symbols, self.words)
+            for table in (self.symbols, self.file.words)
         )
         return symbols, words
+
+    def _called(self, call: Expr) -> tuple[Formula, dict[Symbol, Expr]]:
+        """Return the formula that is called, and what stands for each of its symbols."""
+        known = self.sheet[call.func.__name__]  # type: ignore[index]
+        return known, {**self.own, **dict(zip(known.arguments, call.args, strict=True))}
 
     def substitute(self, expr: Any) -> Any:
         """Replace the calls of the body's formulas by the proven expressions."""
         while calls := expr.atoms(AppliedUndef):
             call = min(calls, key=lambda c: (len(str(c)), str(c)))
             assert self.body is not None
-            known = self.body.sheet[call.func.__name__]
-            formula = self.body.formula(known.name).xreplace({e: M / P})
-            table = {**self._renamed, **dict(zip(known.arguments, call.args, strict=True))}
-            expr = expr.xreplace({call: placed(formula, table)})
+            known, table = self._called(call)
+            proven = self.body.formula(known.name).xreplace({e: M / P})
+            expr = expr.xreplace({call: placed(proven, table)})
         expr = proper(expr)
         if any(each.has(Piecewise) for each in expr.atoms(Limit)):  # SymPy takes either branch
             why = "it has a limit of a formula with cases, which cannot be determined"
-            raise self.place.bad(why, "write the formula on the side from which the limit is taken")
+            remedy = "write the formula on the side from which the limit is taken"
+            raise self.file.place.bad(why, remedy)
         if not expr.has(Derivative, Limit):
             return expr
         try:
@@ -184,7 +197,7 @@ class Context:
         except (AttributeError, NotImplementedError, TypeError, ValueError) as error:
             call = max(expr.atoms(Derivative, Limit), key=lambda each: len(str(each)))
             why = f"no value of {as_text(call)} was found"
-            raise self.place.bad(why, "write its value") from error
+            raise self.file.place.bad(why, "write its value") from error
 
     def in_variables(self, expr: Any) -> Any:
         """Replace the symbols of the source, and the calls, by their meanings."""
@@ -205,8 +218,7 @@ class Context:
                 others &= ~condition
         expr = expr.xreplace(dict.fromkeys(cases, Integer(0)))
         for call in sorted(expr.atoms(AppliedUndef), key=str):
-            known = self.sheet[call.func.__name__]  # type: ignore[index]
-            table = {**self._renamed, **dict(zip(known.arguments, call.args, strict=True))}
+            known, table = self._called(call)
             for condition in known.conditions:
                 if not (condition.has(x) and self._is_an_end(condition, table)):
                     yield self.substitute(condition.xreplace(table))
@@ -228,7 +240,10 @@ class Context:
         calls, own = dict[str, Call](), self.sheet.dimensions if self.sheet else {}
         for name, known in (self.sheet or {}).items():
             calls[name] = tuple(own[each] for each in known.arguments), parse_unit(known.unit)
-        return Units(dict(self.units), self.meant.as_written, calls)
+        units = self.file.units_with(self.body)
+        unknown = {self.variables[name]: units.get(Symbol(name)) for name in self.unknown}
+        units |= {symbol: unit for symbol, unit in unknown.items() if unit is not None}
+        return Units(units, self.meant.as_written, calls)
 
     def mismatch(self, text: str, place: Place) -> str:
         """Describe the units that do not fit in an equation, whether it is judged or not."""
@@ -238,7 +253,7 @@ class Context:
             return self._known_units.mismatch(left, right)
 
         try:
-            return limited(self.seconds, place, found) if text else ""
+            return limited(self.file.seconds, place, found) if text else ""
         except UserError:
             return ""
 

@@ -11,18 +11,35 @@ from pathlib import Path
 from typing import Any
 
 import tomlkit
+from sympy import Symbol
 from tomlkit.items import Item
 
-from derive.check import entries
+from derive.check.declarations import PLACES
 from derive.check.meanings import NONE, Standard
+from derive.check.mistakes import reason
 from derive.command.errors import BadClaimsFile, BadFormula
+from derive.command.limit import LimitReached, within
 from derive.reading.displays import LABEL, Display, displays
-from derive.reading.formula import Names, unknown, usable
+from derive.reading.formula import (
+    Names,
+    approach,
+    condition,
+    equation,
+    may_be_rounded,
+    sides,
+    unknown,
+    usable,
+)
+from derive.reading.improper import typed
 from derive.reading.latex import Latex
-from derive.reading.lexer import Token
-from derive.reading.spellings import functions_in, spellings
+from derive.reading.lexer import Token, plain
+from derive.reading.relation import Relation
+from derive.reading.spellings import functions_in, spellings, unclear_call
 from derive.reading.statements import Statement, remarks, statements
+from derive.reading.substitution import substitution
 
+_SECONDS = 10.0
+"""The time limit for reading one equation, in seconds."""
 _HEAD = """title = ""
 
 # Four answers give the paper's letters their standard meanings: the body (`derive list`), whether
@@ -57,7 +74,6 @@ class Draft:
     spelled       the LaTeX of each symbol -> its name
     defined       the definitions in the paper that may be meanings, each with its place
     claims        the entries of each claim in the file
-    seen          the names that have occurred so far
     """
 
     title: str
@@ -67,7 +83,6 @@ class Draft:
     spelled: dict[str, str] = field(default_factory=dict)
     defined: dict[str, dict[str, str]] = field(default_factory=dict)
     claims: list[dict[str, Any]] = field(default_factory=list)
-    seen: set[str] = field(default_factory=set)
 
     @property
     def unread(self) -> list[str]:
@@ -83,28 +98,16 @@ class Draft:
     @property
     def known(self) -> frozenset[str]:
         """The names that every claims file with these answers knows."""
-        return frozenset({"x", "s", "xi", *self.standard.letters.values()})
+        return frozenset({*PLACES, *self.standard.letters.values()})
 
     def meant(self) -> dict[str, str]:
         """The standard formulas of the paper's symbols."""
-        return {n: entry["is"] for n, entry in self.standard.of({*self.spelled.values()}).items()}
+        return {n: entry.text for n, entry in self.standard.of({*self.spelled.values()}).items()}
 
     def open(self) -> dict[str, dict[str, str]]:
         """The symbols without a meaning, with what the paper says of each."""
         known = self.known | self.meant().keys()
         return {n: self.defined.get(n, {}) for n in self.spelled.values() if n not in known}
-
-    def note_definition(self, made: entries.Read, place: str, is_stated: bool) -> None:
-        """Propose an equation as a meaning if it defines a letter that stands alone on the left.
-
-        It does so if the letter has not occurred before, or if the paper states it.
-        """
-        (name, formula), told = made.sides, made.entries
-        is_whole = formula and not told.keys() & {"require", "as", "unchecked"}
-        is_new = usable(name) and name not in {*re.findall(r"\w+", formula), *self.defined}
-        if is_whole and is_new and (is_stated or name not in self.seen):
-            self.defined[name] = {"proposal": formula, "meaning": place}
-        self.seen.update(re.findall(r"[A-Za-z]\w*", told.get("understood", "")))
 
     def drop_unused(self, in_text: Collection[str]) -> None:
         """Keep the symbols of claims, and those of the text that definitions of others need.
@@ -174,26 +177,97 @@ def draft_claims(
     functions = functions_in(shown)
     spelled = _spelled(shown, functions)
     made.spelled = _spelled(asides, functions) | spelled
-    used = Counter[str]()
+    names = Names("", {name: Symbol(name) for name in made.spelled.values()}, {})
+    used, seen = Counter[str](), set[str]()
     for display, found in known:
         latex = Latex("the draft", display.latex, made.spelled if display.is_aside else spelled)
         labels = [_label(display, each) for each in found]
         for part, (label, statement) in enumerate(zip(labels, found, strict=True), 1):
-            read = entries.read(latex, statement, functions)
+            read, (name, formula) = _read(latex, statement, functions, names)
             place = _place(path.name, display, part if len(found) > 1 else 0)
             is_stated = display.is_defined or _is_stated(display.latex, statement)
-            made.note_definition(read, place, is_stated)
+            if name and name not in made.defined and (is_stated or name not in seen):
+                made.defined[name] = {"proposal": formula, "meaning": place}
+            seen.update(re.findall(r"[A-Za-z]\w*", read.get("understood", "")))
             if display.is_aside:
                 continue
             label += f"/{labels[:part].count(label)}" if labels.count(label) > 1 else ""
             used[label] += 1
             label += f" [{used[label]}]" if used[label] > 1 else ""
-            says = entries.one_line(", ".join(remarks(display.latex)))
+            says = _one_line(", ".join(remarks(display.latex)))
             printed: dict[str, Any] = {"label": label, "place": place, "says": says}
             printed |= {"latex": display.latex, "part": part if statement.tokens else 0}
-            made.claims.append({key: e for key, e in printed.items() if e} | read.entries)
+            made.claims.append({key: e for key, e in printed.items() if e} | read)
     made.drop_unused(made.spelled.keys() - spelled.keys())
     return made
+
+
+# ------------------------------------------------------------------ one statement
+
+
+def _read(
+    latex: Latex, statement: Statement, functions: Collection[str], names: Names
+) -> tuple[dict[str, Any], tuple[str, str]]:
+    """Return the entries of a claim, and the symbol that it may define, with its formula.
+
+    The entry `unchecked` says why the claim cannot be judged.  Symbol and formula are empty if the
+    claim has a condition, or defines nothing.
+
+    functions: the symbols that are printed as functions, and nowhere without parentheses
+    """
+    found, defined, why = dict[str, Any](), ("", ""), statement.why
+    if not why and (called := unclear_call(statement.tokens, functions)):
+        why = f"{called} is a function elsewhere, so it is unclear whether it is a factor here"
+        why += ": write the claim as text"
+    try:
+        with within(_SECONDS):
+            if not why:
+                understood = latex.read("equation", statement.tokens)
+                left, relation, right = equation(understood, names, rough=statement.is_rough)
+                found = {"understood": understood, "accepted": False}
+                if relation == Relation.EQUAL:
+                    defined = sides(understood, names)
+                    if angle := substitution(left, right):
+                        defined = str(angle[0]), str(typed(angle[1]))
+    except BadFormula as error:
+        why = reason(error)
+    except LimitReached:
+        why = "" if found else f"it could not be read within {_SECONDS:g} s"
+    conditions, unclear = _conditions(latex, statement, names)
+    found |= conditions
+    is_exact = not statement.is_rough or may_be_rounded(found.get("understood", ""))
+    if not (unclear or is_exact or "as" in conditions):
+        unclear = "it is an approximation: add its limit, such as as = 'x -> 0', or write it with ="
+    if why or unclear:
+        found["unchecked"] = _one_line(why or unclear)
+    name, formula = defined
+    is_definition = usable(name) and name not in re.findall(r"\w+", formula)
+    is_definition = is_definition and not found.keys() & {"require", "as", "unchecked"}
+    return found, defined if is_definition else ("", "")
+
+
+def _conditions(latex: Latex, statement: Statement, names: Names) -> tuple[dict[str, Any], str]:
+    """Return the entries for the conditions and the limit, and the reason if this fails."""
+    told, limits, small = list[str](), list[str](), statement.small
+    for each in statement.conditions:
+        try:
+            if any(token.type == "TO" for token in each):
+                limits.append(latex.read("approach", each))
+                approach(limits[-1], names)
+            else:
+                told.append(latex.read("conditions", each))
+                condition(told[-1], names)
+        except BadFormula:
+            why = f"its condition {plain(each)} could not be read: write it in `require` or in `as`"
+            return {}, why
+    found: dict[str, Any] = {"require": " and ".join(told)} if told else {}
+    if statement.order:
+        limits.append(f"{latex.spellings.get(small, small)} -> 0")
+    if len(set(limits)) > 1:
+        return found, f"it holds in several limits, {', '.join(limits)}: put one in `as`"
+    order = int(statement.order) if statement.order.is_integer() else statement.order
+    entries = {"as": "".join(limits[:1]), "order": order}
+    return found | {key: entry for key, entry in entries.items() if entry}, ""
 
 
 def _statements(name: str, display: Display) -> list[Statement]:
@@ -201,7 +275,7 @@ def _statements(name: str, display: Display) -> list[Statement]:
     try:
         return statements(name, display.latex) or [Statement([], why="it has no relation")]
     except BadFormula as error:
-        return [Statement([], why=entries.reason(error))]
+        return [Statement([], why=reason(error))]
 
 
 def _spelled(formulas: list[list[Token]], functions: Collection[str]) -> dict[str, str]:
@@ -221,7 +295,7 @@ def _label(display: Display, statement: Statement) -> str:
     end, number = statement.tokens[-1].at if statement.tokens else 0, display.number
     row = display.latex[:end].rpartition(r"\\")[2] + display.latex[end:].partition(r"\\")[0]
     own = f"({number})" if number else f"line {display.line}"
-    return entries.one_line(", ".join(LABEL.findall(row) or display.labels) or own)
+    return _one_line(", ".join(LABEL.findall(row) or display.labels) or own)
 
 
 def _place(name: str, display: Display, part: int) -> str:
@@ -229,6 +303,11 @@ def _place(name: str, display: Display, part: int) -> str:
     equation = f"eq. ({display.number})" if display.number else ""
     statement = f"statement {part}" if part else ""
     return ", ".join(filter(None, (equation, statement, f"{name}:{display.line}")))
+
+
+def _one_line(text: str) -> str:
+    """Return a text in one line, without control characters."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
 
 
 def _toml(entry: Any) -> Item:

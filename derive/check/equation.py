@@ -17,7 +17,6 @@ from sympy.logic.boolalg import Boolean
 
 from derive.check.claim import SIGNED, AsMeant, Basis, Claim, Meaning, Range, Rounded
 from derive.check.context import (
-    PLACES,
     Context,
     as_text,
     calls_along,
@@ -25,7 +24,7 @@ from derive.check.context import (
     free,
     integrals,
 )
-from derive.check.declarations import Declarations
+from derive.check.declarations import PLACES, Declarations
 from derive.check.schema import Entry, Formula, Place
 from derive.reading.formula import Names, approach, condition, equation, rounded_in
 from derive.reading.improper import IMPROPER

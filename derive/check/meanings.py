@@ -9,10 +9,12 @@ A line of the file beats the standard meaning of its symbol.
 import re
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
+
+from msgspec.structs import replace as with_entries
 
 from derive.body.geometry import Geometry
-from derive.check.schema import Answers, Place
+from derive.check.schema import Answers, DefinedSymbol, Place, Variable
 from derive.reading.formula import usable
 from derive.reading.lexer import Unclear, tokens_of
 from derive.reading.spellings import spellings
@@ -75,7 +77,7 @@ Delta_[sigma]; 4*f*E_star*(tilt(edges) - tilt(stick)); Pa; range of the bulk ten
 true.  A letter without a formula is a variable.  Parts in brackets follow the paper's letters: if a
 is l, d[P]_d[a] is dP_dl.  `left` and `right`, or both as `edges`, are the ends of the contact, and
 likewise those of the stick zone.  `stick_pressure` is that of the stick zone, zero beside it."""
-_RANGES: dict[str, dict[str, Any]] = {"nu": {"low": 0, "high": 0.5}, "kappa": {"low": 1, "high": 3}}
+_RANGES = {"nu": (0, 0.5), "kappa": (1, 3)}
 _STICK = {"even": ("m", "m"), "uneven": ("m", "n"), "eccentric": ("d - e", "d + e")}
 _ENDS = {"even": "its half-width alone", "uneven": "its two ends", "eccentric": "d and e"}
 _CONSTANTS = {"E", "mu"}
@@ -109,15 +111,15 @@ class Standard:
     """The standard meanings of a paper.
 
     letters     our letters for variables and parameters -> names of the paper
-    variables   these variables and parameters, as entries of [variables]
-    symbols     the other names of the paper, as entries of [symbols]
+    variables   these variables and parameters
+    symbols     the other names of the paper
     conditions  what is true of the variables in every claim
     absent      the names that have a standard meaning for other answers, with the reason why not
     """
 
     letters: Mapping[str, str]
-    variables: Mapping[str, dict[str, Any]] = field(default_factory=dict)
-    symbols: Mapping[str, dict[str, Any]] = field(default_factory=dict)
+    variables: Mapping[str, Variable] = field(default_factory=dict)
+    symbols: Mapping[str, DefinedSymbol] = field(default_factory=dict)
     conditions: tuple[str, ...] = ()
     absent: Mapping[str, str] = field(default_factory=dict)
 
@@ -126,17 +128,18 @@ class Standard:
         told = ((name, self.absent[name]) for name in names if name in self.absent)
         return "".join(f"; {name} has no standard meaning, because {why}" for name, why in told)
 
-    def of(self, names: Collection[str], given: Iterable[str] = ()) -> dict[str, dict[str, Any]]:
-        """Return the entries of those names that have a standard meaning, also p_at_b for p(b).
+    def of(self, names: Collection[str], given: Iterable[str] = ()) -> dict[str, DefinedSymbol]:
+        """Return the meanings of those names that have a standard meaning, also p_at_b for p(b).
 
         given: names with another meaning; if p(x) is one of them, p(b) has no standard meaning
         """
-        found, others = dict[str, dict[str, Any]](), {_stem(name) for name in given}
+        found, others = dict[str, DefinedSymbol](), {_stem(name) for name in given}
         for name in sorted(names):
             entry, at = self.symbols.get(_stem(name)), name.partition("_at_")[2]
-            is_place = entry and "(x, " in entry["is"] and (at.isdigit() or at in names)
+            is_place = entry and "(x, " in entry.text and (at.isdigit() or at in names)
             if entry and _stem(name) not in others and (is_place or not at):
-                found[name] = {**entry, "is": re.sub(r"\bx\b", at or "x", entry["is"])}
+                formula = re.sub(r"\bx\b", at or "x", entry.text)
+                found[name] = with_entries(entry, formula=formula)
         return found
 
 
@@ -165,15 +168,16 @@ def standard(answers: Answers, geometry: Geometry, place: Place) -> Standard:
     inside = f"-({stick[0]}) < x and x < {stick[1]}"
     ends |= {"stick_pressure": f"Piecewise((pressure(x, {ends['stick']}), {inside}), (0, True))"}
     ends |= {"left": edges[0], "right": edges[1], "stick_left": stick[0], "stick_right": stick[1]}
-    variables, symbols = dict[str, dict[str, Any]](), dict[str, dict[str, Any]]()
+    variables, symbols = dict[str, Variable](), dict[str, DefinedSymbol]()
     for ours, row in rows.items():
         name = names.get(ours) or _replaced(_PARTS, names, row.pattern)
-        entry = {"meaning": row.meaning, "unit": row.unit}
         if not row.formula:
-            variables[name] = entry | _RANGES.get(ours, {})
+            low, high = _RANGES.get(ours, (None, None))
+            variables[name] = Variable(row.meaning, row.unit, low, high)
         elif ours in names or name not in names.values():
             formula = _replaced(_WORD, letters, _replaced(_WORD, ends, row.formula))
-            symbols[name] = entry | {"is": re.sub(r"(?<!\w)\((\w+)\)", r"\1", formula)}
+            formula = re.sub(r"(?<!\w)\((\w+)\)", r"\1", formula)
+            symbols[name] = DefinedSymbol(row.meaning, row.unit, formula)
     within = {f"{end} < {edge}" for end, edge in zip(stick, edges, strict=True)}
     conditions = tuple(_replaced(_WORD, letters, each) for each in sorted(within))
     known = {*rows, *names.values(), *variables, *symbols}

@@ -15,8 +15,9 @@ from derive.command.limit import LimitReached, within
 
 Read = TypeVar("Read")
 
-_SHOWN = 30
-"""The largest number of characters of a formula that a reason shows."""
+_SHOWN = 4
+_LONGEST = 80
+"""The largest number of words and characters of a formula that show where an error occurred."""
 
 
 @dataclass
@@ -74,9 +75,8 @@ def reason(error: UserError, place: Place | None = None) -> str:
     """Describe an error in one line, without the place of the claim in which it is."""
     if isinstance(error, BadFormula):
         part = error.where.removeprefix(str(place)).lstrip(": ") if place else ""
-        rest = " ".join(error.given[error.column :].split())
-        rest = f"{rest[:_SHOWN]}..." if len(rest) > _SHOWN else rest
-        at = f"at {rest}" if rest else "at the end"
+        rest = " ".join(error.given[error.column :].split()[:_SHOWN])[:_LONGEST]
+        at = f"at `{rest}`" if rest else "at the end"
         return f"{part}{': ' * bool(part)}{error.why}, {at}: {error.remedy}"
     if isinstance(error, BadClaimsFile):
         why = error.why.removeprefix(place.what).lstrip(": ") if place else error.why

@@ -28,8 +28,6 @@ _SENSES = {
     Verdict.CONVENTION: "the opposite sign",
     Verdict.FAILS: "neither",
 }
-_MEANINGS = "The meanings used, and the number of claims that use them"
-_SIGNS_OF = "Signs, section by section"
 _SHOWN = 6
 """The number of points that an explanation shows."""
 
@@ -108,7 +106,7 @@ def explanation(finding: Finding) -> list[Told]:
         Told("rests on", [finding.rests_on]),
         Told("step", lines_of(finding.step)),
         Told("units", [claim.units]),
-        Told("convention", _convention(finding)),
+        Told("convention", [_convention(finding)]),
         Told("search", [*search, in_vain]),
         Told("consequence", claim.consequences),
     ]
@@ -120,14 +118,13 @@ def _meanings(claim: Claim) -> list[str]:
     meant = claim.meant
     sides = (*meant.compared, meant.left, meant.right)
     held = set().union(*(side.free_symbols for side in sides))
-    used = {s: e for s, e in meant.meaning.items() if s in held}
-    found: dict[str, str] = {s.name: text_of(typed(e)) for s, e in used.items()}
+    found = {s.name: text_of(typed(expr)) for s, expr in meant.meaning.items() if s in held}
     told = list[str]()
     for name in dict.fromkeys([*found, *claim.symbols, *claim.words]):
         both = dict.fromkeys(filter(None, (claim.symbols.get(name), found.get(name))))
         is_open = name in claim.symbols and not both
         line = f"{name} has no meaning yet" if is_open else " = ".join((name, *both))
-        told.append(f"{line}, {claim.words[name]}" if name in claim.words else line)
+        told.append(", ".join(filter(None, (line, claim.words.get(name)))))
     return told
 
 
@@ -138,7 +135,7 @@ def evidence(finding: Finding) -> str:
     parts = [
         f"its units do not fit: {claim.units}" if claim.units else "",
         f"{compared}{finding.judged.why}",
-        *_convention(finding),
+        _convention(finding),
         finding.partly,
         *_search(finding),
     ]
@@ -154,10 +151,10 @@ def verdict(finding: Finding) -> str:
     return f"{finding.verdict} ({', '.join(notes)})" if notes else str(finding.verdict)
 
 
-def _convention(finding: Finding) -> list[str]:
+def _convention(finding: Finding) -> str:
     if finding.convention is None or finding.under is None:
-        return []
-    return [f"with {finding.convention.what}: {finding.under.why}"]
+        return ""
+    return f"with {finding.convention.what}: {finding.under.why}"
 
 
 def _search(finding: Finding) -> list[str]:
@@ -220,7 +217,7 @@ def covered(finding: Finding) -> Coverage:
 
     A claim of a draft is not read if the draft says why it, or a part of it, could not be read.
     """
-    claim, entry = finding.claim, finding.claim.entry
+    claim = finding.claim
     if finding.verdict == Verdict.FAILS:
         return Coverage.FAILED
     if finding.verdict == Verdict.CONVENTION:
@@ -231,8 +228,7 @@ def covered(finding: Finding) -> Coverage:
         return Coverage[(finding.basis or claim.meant.basis).name]
     if claim.to_accept:
         return Coverage.TO_ACCEPT
-    is_read = claim.text and (entry.accepted or not entry.unchecked)
-    return Coverage.NOT_READ if entry.latex and not is_read else Coverage.UNCHECKED
+    return Coverage.NOT_READ if claim.is_unread else Coverage.UNCHECKED
 
 
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
@@ -256,25 +252,25 @@ def coverage(findings: Iterable[Finding]) -> str:
 
 
 def lists(paper: Paper, findings: Sequence[Finding]) -> dict[str, list[str]]:
-    """Return the lists of a document that are not empty, by their headings."""
-    told = {_MEANINGS: definitions(findings), _SIGNS_OF: signs(paper, findings)}
-    return {heading: lines for heading, lines in told.items() if lines}
+    """Return the lists of a document that are not empty, by their headings.
 
-
-def definitions(findings: Iterable[Finding]) -> list[str]:
-    """Describe the symbols that are used, and the variables that the file says something of.
-
-    Each line has the number of claims that use a definition.
+    The first describes the symbols that are used, and the variables that the file says something
+    of, each with the number of claims that use this definition.
     """
     used = Counter(
         (name, claim.symbols.get(name, "a variable"), claim.words.get(name, ""))
         for claim in (finding.claim for finding in findings)
         for name in {**claim.symbols, **claim.words}
     )
-    return [
+    meanings = [
         f"{name}: {', '.join(filter(None, (text or 'no meaning yet', words)))} ({count})"
         for (name, text, words), count in sorted(used.items())
     ]
+    told = {
+        "The meanings used, and the number of claims that use them": meanings,
+        "Signs, section by section": signs(paper, findings),
+    }
+    return {heading: lines for heading, lines in told.items() if lines}
 
 
 def summary(findings: Sequence[Finding]) -> str:

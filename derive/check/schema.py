@@ -146,26 +146,34 @@ Number = Annotated[float, msgspec.Meta(gt=-1e6, lt=1e6)]
 """A bound of a range, or a value of a variable."""
 
 
-class DefinedSymbol(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """An entry of [symbols] that is a table; the formula is empty if it is not known yet."""
+Formula = str | int | float
+"""The formula of a symbol; empty if it is not known yet."""
 
-    formula: str | int | float = msgspec.field(default="", name="is")
+
+class Quantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What the entries of [symbols] and [variables] have in common."""
+
     meaning: str = ""
-    proposal: str = ""
     unit: str | None = None
 
 
-Formula = str | int | float | DefinedSymbol
-"""An entry of [symbols]."""
+class DefinedSymbol(Quantity, frozen=True, forbid_unknown_fields=True):
+    """An entry of [symbols]."""
+
+    formula: Formula = msgspec.field(default="", name="is")
+    proposal: str = ""
+
+    @property
+    def text(self) -> str:
+        """The formula as text."""
+        return str(self.formula).strip()
 
 
-class Variable(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class Variable(Quantity, frozen=True, forbid_unknown_fields=True):
     """An entry of [variables]; positive, and of any size, if it has no bounds."""
 
-    meaning: str = ""
     low: Number | None = None
     high: Number | None = None
-    unit: str | None = None
 
     def __post_init__(self) -> None:
         """Refuse a single bound, and bounds that leave no room."""
@@ -278,6 +286,6 @@ class ClaimsFile(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     paper: dict[str, Any] | None = None
     variables: dict[str, Any] = {}
     symbols: dict[str, Any] = {}
-    latex: dict[str, Any] = {}
+    latex: dict[str, str] = {}
     claims: list[Any] = []
     signs: dict[str, list[str]] = {}

@@ -1,7 +1,7 @@
 """Read a claims file in TOML, which is data only: no part of it is ever executed.
 
 In:   the path of a file, or of a folder with several.
-Out:  the Paper with all claims, and the readings that wait for the user.
+Out:  the Paper with all claims, and what the file declares for them.
 
 docs/claims.md describes the file.
 """
@@ -39,8 +39,8 @@ def read_claims(path: Path) -> Paper:
     be read or compared is returned as unchecked, with the reason.
     """
     if not isdir(path):  # noqa: PTH112 - False for a name that no file can have
-        return _read(path)[0]
-    papers = [_read(each)[0] for each in sorted(path.glob("*.toml"))]
+        return read_file(path)[0]
+    papers = [read_file(each)[0] for each in sorted(path.glob("*.toml"))]
     if not papers:
         why = "the folder has no claims file"
         raise BadClaimsFile(str(path), why, "give a claims file, or a folder with such files")
@@ -54,14 +54,6 @@ def read_claims(path: Path) -> Paper:
 def built_in() -> Paper:
     """Return the paper that introduced the method of this project."""
     return read_claims(BUILT_IN)
-
-
-def reader_of(path: Path) -> ClaimReader:
-    """Return what a file declares, and the readings that are not accepted yet.
-
-    Raises the errors of `read_claims`.
-    """
-    return _read(path)[1]
 
 
 def source(path: Path) -> tuple[str, dict[str, Any]]:
@@ -81,7 +73,7 @@ def source(path: Path) -> tuple[str, dict[str, Any]]:
     raise BadClaimsFile(str(path), why, remedy)
 
 
-def _read(path: Path) -> tuple[Paper, ClaimReader]:
+def read_file(path: Path) -> tuple[Paper, Declarations]:
     """Read one file; errors in its structure are collected and reported together."""
     text, data = source(path)
     errors, place = Collected(), Place(str(path), lines_in(text))
@@ -89,16 +81,18 @@ def _read(path: Path) -> tuple[Paper, ClaimReader]:
     place.demand(not hidden, f"the text {hidden!r} contains a control character", "remove it")
     file = decoded(ClaimsFile, data, place, errors.noted)
     reader = ClaimReader(Declarations(file, place, errors))
+    tables = [each for each in file.claims if isinstance(each, dict)]
+    errors.errors += reader.wrong_symbols(each.get("body") for each in tables)
     with errors.noted():
-        place.demand(bool(data.get("claims")), "the file has no [[claims]]", "add at least one")
-        why = f"the file has {len(file.claims)} claims, and at most {_MAX_CLAIMS} are allowed"
-        place.demand(len(file.claims) <= _MAX_CLAIMS, why, "split it")
+        why = f"the file has {len(file.claims) or 'no'} tables [[claims]]"
+        is_right = data.get("claims") and len(file.claims) <= _MAX_CLAIMS
+        place.demand(bool(is_right), why, f"write 1 to {_MAX_CLAIMS} of them")
         claims = _claims(file.claims, place, reader, errors)
     if errors.errors:
         errors.errors += reader.mistakes
     errors.demand_none()
     signs = {name: tuple(labels) for name, labels in file.signs.items()}
-    return Paper(file.title or str(path), claims, signs), reader
+    return Paper(file.title or str(path), claims, signs), reader.declared
 
 
 def _claims(
@@ -113,7 +107,7 @@ def _claims(
             why = f"two claims have the label {label!r}"
             at.demand(label not in labels, why, "give each claim a different label")
             labels.add(label)
-            made.append(reader.claim(number, each, at.inside(f"claim {label!r}")))
+            made.append(reader.claim(each, at.inside(f"claim {label!r}")))
     return tuple(made)
 
 

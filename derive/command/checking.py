@@ -16,7 +16,7 @@ from derive.check.claim import Paper
 from derive.check.draft import draft_claims
 from derive.check.meanings import NONE, Standard, standard
 from derive.check.schema import MODULI, Answers, Place, decoded
-from derive.check.userfile import built_in, read_claims, reader_of
+from derive.check.userfile import built_in, read_claims, read_file
 from derive.command.errors import UserError
 from derive.command.files import demand_page, put_page
 from derive.command.options import parse_name_values
@@ -89,8 +89,8 @@ def _answers() -> tuple[tuple[str, dict[str, Any]] | tuple[()], Standard]:
 
 def _told(ours: Standard) -> list[str]:
     """Our letters with their meanings."""
-    entries = {**ours.variables, **ours.symbols}.items()
-    return [f"{letter}, {entry['meaning']}" for letter, entry in entries]
+    entries = (*ours.variables.items(), *ours.symbols.items())
+    return [f"{letter}, {entry.meaning}" for letter, entry in entries]
 
 
 def _answer(question: str, kind: Any, default: str | None = None) -> Any:
@@ -113,30 +113,30 @@ def accept_readings(file: Path | None, label: str | None) -> None:
     if file is None or label is not None:
         raise click.UsageError("--accept needs a claims file, without --explain: give FILE alone")
     demand_writable(file)
-    reader = reader_of(file)
-    for name, entry in reader.declared.variables.items():
-        click.echo(f"variable: {name}, {entry['meaning']}")
-    for name, entry in reader.declared.standard.items():
-        click.echo(f"standard meaning: {name} = {entry['is']}, {entry['meaning']}")
-    readings = {r.entry.label: r for r in reader.readings if r.understood}
+    paper, declared = read_file(file)
+    for name, variable in declared.variables.items():
+        click.echo(f"variable: {name}, {variable.meaning}")
+    for name, symbol in declared.standard.items():
+        click.echo(f"standard meaning: {name} = {symbol.text}, {symbol.meaning}")
+    readings = {claim.entry.label: claim for claim in paper.claims if claim.to_accept}
     proposals = {
-        name: {"defined at": entry.get("meaning", ""), "means": entry["proposal"]}
-        for name, entry in reader.declared.proposals.items()
+        name: {"defined at": symbol.meaning, "means": symbol.proposal}
+        for name, symbol in declared.proposals.items()
     }
     meanings, printed, left = list[str](), list[str](), len(readings) + len(proposals)
     try:
         _ask("Is this its meaning?", proposals, meanings)
-        _ask("Is this what is printed?", {n: r.shown for n, r in readings.items()}, printed)
+        _ask("Is this what is printed?", {n: c.shown for n, c in readings.items()}, printed)
     except click.Abort:  # the end of the input
         click.echo()
     finally:
         if meanings or printed:
-            accept(file, [readings[label] for label in printed], meanings)
+            accept(file, {label: readings[label].text for label in printed}, meanings)
     accepted = len(meanings) + len(printed)
     click.echo(f"{accepted} accepted, {left - accepted} left")
-    for reading in reader.readings:
-        if not reading.understood:
-            click.echo(f"unchecked: {reading.entry.label}: {reading.why}")
+    for claim in paper.claims:
+        if claim.is_unread:
+            click.echo(f"unchecked: {claim.entry.label}: {claim.unchecked}")
 
 
 def _ask(question: str, shown: Mapping[str, Mapping[str, str]], accepted: list[str]) -> None:
@@ -158,17 +158,15 @@ def _ask(question: str, shown: Mapping[str, Mapping[str, str]], accepted: list[s
 
 def next_steps(file: Path, paper: Paper) -> list[str]:
     """What to do with a draft of which nothing has been accepted yet; empty for any other file."""
-    if not all(claim.unchecked for claim in paper.claims):
+    waiting = sum(bool(claim.to_accept) for claim in paper.claims)
+    if not waiting or not all(claim.unchecked for claim in paper.claims):
         return []
-    reader = reader_of(file)
-    waiting = sum(bool(reading.understood) for reading in reader.readings)
-    if not waiting:
-        return []
+    declared = read_file(file)[1]
     told = [f"No claim of {file} can be judged yet: {waiting} readings wait for you."]
-    if reader.declared.paper is NONE:
+    if declared.paper is NONE:
         told.append("Answer the four questions at the top of the file: body and the table [paper].")
-    if left := [name for name, formula in reader.declared.symbols.items() if not formula]:
-        why = reader.declared.paper.reasons(left)
+    if left := [name for name, formula in declared.symbols.items() if not formula]:
+        why = declared.paper.reasons(left)
         told.append(f"Give meanings in [symbols] or [variables] to {', '.join(left)}{why}.")
     return [*told, f"Then accept the readings: {command()} check {typed(file)} --accept"]
 

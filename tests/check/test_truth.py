@@ -271,8 +271,8 @@ symbols = { p_0 = "E_star*a/R" }
         ("P = p_0*pi*a/4", "(1)", "holds", "rests on given (1) (fails)"),
         ("u = 4*a**2", "(2)", "holds", "rests on given (2) (unchecked)"),  # u is t**2
         ("p_0 = 4*P/(pi*a)", "(3)", "holds", "given (3) (holds, rests on given (1) (fails))"),
-        ("P = p_0*a", "(4)", "unchecked", "does not define a symbol"),
-        ("p_0*R = E_star*a", "(5)", "unchecked", "symbols, a body or cases of its own"),
+        ("P = p_0*a", "(4)", "unchecked", "of the form symbol = ..."),
+        ("p_0*R = E_star*a", "(5)", "unchecked", "no symbols, body or cases of its own"),
     ],
 )
 def test_a_claim_says_what_became_of_those_given(
