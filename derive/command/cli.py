@@ -145,10 +145,10 @@ def _show_pages(out: Path | None, limit: float) -> None:
     demand_replaceable(folder)
     with _progress(len(library())) as step:
         made = each_in_process(page_of_set, library(), step, cores())
-    bodies, _, entries = zip(*made, strict=True)
+    bodies, _, cards = zip(*made, strict=True)
     _remark_on(bodies)
     pages = {f"{body.name}.html": page for body, page, _ in made}
-    replace_folder(with_manifest(pages | {"index.html": index_of(entries)}), folder)
+    replace_folder(with_manifest(pages | {"index.html": index_of(cards)}), folder)
     index = path_of((folder / "index.html").resolve())
     click.echo(f"Wrote {index} and the pages of {len(bodies)} bodies")
 

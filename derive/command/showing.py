@@ -8,9 +8,10 @@ separate process with limits on time and memory; a geometry file cannot end this
 """
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import click
+from markupsafe import Markup
 from rich.console import RenderableType
 from sympy import Add, Expr, Monomial, Poly
 
@@ -21,9 +22,6 @@ from derive.command.terminal import folded, status
 from derive.sheet.built import BuiltBody
 from derive.sheet.derivation import slip_series
 from derive.sheet.notation import text_of
-
-if TYPE_CHECKING:
-    from derive.handbook.page import Entry
 
 Shown = TypeVar("Shown")
 
@@ -64,12 +62,12 @@ def sheet_of(name: str, report: Report, form: str, limit: float) -> tuple[Render
 
 def page_of(
     name: str, report: Report, limit: float, index: bool = False
-) -> "tuple[BuiltBody, str, Entry]":
+) -> tuple[BuiltBody, str, Markup]:
     """A body, its page, and its entry in an index, to which the page may link."""
-    from derive.handbook.page import entry, page
+    from derive.handbook.page import card, page
 
     sheet, body = pipeline.sheet_and_body(name, report, limit)
-    made = body, page(sheet, body, index), entry(sheet, body)
+    made = body, page(sheet, body, index), card(sheet, body)
     report(name, pipeline.DONE)
     return made
 

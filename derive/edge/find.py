@@ -4,7 +4,7 @@ The half-cycle runs from the first load step to the last.  The slip zones are th
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot, nan
 
 import numpy as np
@@ -24,19 +24,11 @@ INSIDE = 0.5
 """If the pressure at an end of the table exceeds this fraction of the largest pressure, the table
 is taken to end inside the contact."""
 
-SIDES = ("left", "right")
+INWARD = {"left": 1, "right": -1}
+"""The direction from each edge into the contact."""
 
 PRESSURES, WIDTHS = (1e4, 1e11), (1e-7, 1.0)
 """Plausible ranges of the largest pressure [Pa] and of the contact width [m] in a table."""
-
-
-@dataclass(frozen=True)
-class FittedEdge:
-    """The fit of one edge at one load step."""
-
-    step: str
-    side: str
-    pressure: PressureFit
 
 
 @dataclass(frozen=True)
@@ -50,10 +42,6 @@ class Zone:
     part    the slip zone divided by the distance at which the next term equals the first
     """
 
-    side: str
-    K_T: float
-    K_T_error: float
-    da: float
     d: float
     error: float
     series: float
@@ -62,12 +50,28 @@ class Zone:
 
 
 @dataclass(frozen=True)
+class FittedEdge:
+    """One edge at one load step; the rest is known at the last load step only.
+
+    shear     full stick next to the edge, or None if the table has no shear traction
+    da        how far the edge has moved outward since the first load step, and its error [m]
+    zone      the slip zone, or None if the shear is not known
+    """
+
+    step: str
+    side: str
+    pressure: PressureFit
+    shear: ShearFit | None = None
+    da: float = 0.0
+    da_error: float = 0.0
+    zone: Zone | None = None
+
+
+@dataclass(frozen=True)
 class Findings:
     """All results from a table; the notes are warnings, and reasons for missing results."""
 
     edges: tuple[FittedEdge, ...]
-    shears: tuple[tuple[str, ShearFit], ...]
-    zones: tuple[Zone, ...]
     notes: tuple[str, ...]
 
 
@@ -98,51 +102,36 @@ def find(
             "add nodes up to at least one edge",
         )
     first = {e.side: e for e in edges if e.step == steps[0].name}
-    last = {e.side: e for e in edges if e.step == steps[-1].name}
-    shears = _shears(steps, last, shown, notes)
-    stuck = {side: (s.K_T, s.K_T_error, s.L_T, s.L_T_error) for side, s in shears}
-    if dQ is not None or dsigma is not None:
-        if shears:
-            raise BadTable(
-                shown,
-                "the table has a shear traction, and --dQ or --dsigma is given as well",
-                "remove either the shear column or these options",
-            )
-        if len(last) < 2:
-            raise BadTable(
-                shown,
-                "the table has only one edge, but --dQ and --dsigma need both",
-                "give a column with the shear traction instead",
-            )
-        stuck = _from_loads(last, dQ or 0.0, dsigma or 0.0)
-    if not stuck and all(np.isnan(e.pressure.edge) for e in last.values()):
-        notes.append("the slip zones cannot be computed, because neither edge was found")
-    elif not stuck:
+    last = {e.side: _moved(e, first) for e in edges if e.step == steps[-1].name}
+    if dQ is None and dsigma is None:
+        stuck = _shears(steps, last, shown, notes)
+    else:
+        stuck = _from_loads(steps[-1], last, shown, dQ or 0.0, dsigma or 0.0)
+    if not stuck:
         notes.append(
-            "the slip zones cannot be computed, because the shear traction is missing: add that of "
-            "a run without slip to the table, or give --dQ and --dsigma"
+            "the slip zones cannot be computed without an edge and a shear traction: if the table "
+            "has no shear traction, add that of a run without slip, or give --dQ and --dsigma"
         )
     notes += _unlikely(steps[-1])
     slides = _slides(steps, last, stuck, f)
     notes += slides
-    moves = {side: _move(first.get(side), last[side]) for side in last}
-    zones = tuple(
-        _zone(side, last, first, stuck, moves, nan if slides else f)
-        for side in SIDES
-        if side in last and side in stuck
-    )
-    for zone in () if slides else zones:
+    for side in stuck:
+        zone = _zone(side, last, stuck, nan if slides else f)
+        last[side] = replace(last[side], shear=stuck[side], zone=zone)
+        if slides:
+            continue
         if np.isnan(zone.d):
             notes.append(
-                f"{zone.side} edge: no slip zone extends inward from the edge at both ends of the "
+                f"{side} edge: no slip zone extends inward from the edge at both ends of the "
                 "half-cycle"
             )
         elif zone.part > 0.3:
             notes.append(
-                f"{zone.side} edge: the slip zone is {zone.part:.1f} times the distance at which "
+                f"{side} edge: the slip zone is {zone.part:.1f} times the distance at which "
                 "the next term equals the first, so the series is not reliable there"
             )
-    return Findings(tuple(edges), tuple(shears), zones, tuple(notes))
+    before = [e for e in edges if e.step != steps[-1].name]
+    return Findings((*before, *last.values()), tuple(notes))
 
 
 def _unlikely(step: Step) -> list[str]:
@@ -158,16 +147,13 @@ def _unlikely(step: Step) -> list[str]:
 
 
 def _slides(
-    steps: Sequence[Step],
-    last: dict[str, FittedEdge],
-    stuck: dict[str, tuple[float, float, float, float]],
-    f: float,
+    steps: Sequence[Step], last: dict[str, FittedEdge], stuck: dict[str, ShearFit], f: float
 ) -> list[str]:
     """Return why the whole contact slides, if it does and if this is known."""
-    if len(last) < 2 or len(stuck) < 2:
+    if len(stuck) < 2:
         return []
     h = last["right"].pressure.edge - last["left"].pressure.edge
-    dQ = np.pi * np.sqrt(h) * (stuck["left"][0] + stuck["right"][0]) / 2
+    dQ = np.pi * np.sqrt(h) * (stuck["left"].K_T + stuck["right"].K_T) / 2
     capacity = f * sum(np.trapezoid(step.p, step.x) for step in (steps[0], steps[-1]))
     if not abs(dQ) >= capacity:
         return []
@@ -181,7 +167,7 @@ def _edges(step: Step, shown: str, notes: list[str]) -> list[FittedEdge]:
     """Fit the edges of one load step."""
     where = f"load step {step.name}: " if step.name else ""
     edges = []
-    for side, direction in zip(SIDES, (1, -1), strict=True):
+    for side, direction in INWARD.items():
         x, p = step.x[::direction], step.p[::direction]
         try:
             fit = fit_pressure(x, p)
@@ -196,13 +182,21 @@ def _edges(step: Step, shown: str, notes: list[str]) -> list[FittedEdge]:
     return edges
 
 
+def _moved(edge: FittedEdge, first: dict[str, FittedEdge]) -> FittedEdge:
+    """An edge with its movement since the first load step; 0 if it was not in the table there."""
+    before = first.get(edge.side, edge).pressure
+    da = INWARD[edge.side] * (before.edge - edge.pressure.edge) + 0.0  # not -0
+    error = hypot(edge.pressure.edge_error, before.edge_error) if da else 0.0
+    return replace(edge, da=da, da_error=error)
+
+
 def _shears(
     steps: Sequence[Step], last: dict[str, FittedEdge], shown: str, notes: list[str]
-) -> list[tuple[str, ShearFit]]:
+) -> dict[str, ShearFit]:
     """Fit full stick at both edges to the change in the shear traction over the half-cycle."""
     first, end = steps[0], steps[-1]
     if end.q is None or first.q is None:
-        return []
+        return {}
     dq = end.q
     if len(steps) > 1:
         if len(first.x) != len(end.x) or np.any(first.x != end.x):
@@ -212,76 +206,75 @@ def _shears(
                 "use the same nodes in both, so that the change is known",
             )
         dq = end.q - first.q
-    shears = []
-    for side, direction in zip(SIDES, (1, -1), strict=True):
-        if side not in last or np.isnan(last[side].pressure.edge):
+    shears = {}
+    for side, edge in last.items():
+        if np.isnan(edge.pressure.edge):
             continue
-        fitted = last[side].pressure
+        x, dq_inward = end.x[:: INWARD[side]], dq[:: INWARD[side]]
         try:
-            fit = fit_stuck_shear(
-                end.x[::direction], dq[::direction], fitted.edge, fitted.edge_error
-            )
+            fit = fit_stuck_shear(x, dq_inward, edge.pressure.edge, edge.pressure.edge_error)
         except ValueError as error:
             raise BadTable(shown, f"shear: {error}", "correct the table") from None
         if fit.warning:
             notes.append(f"{side} edge, shear: {fit.warning}")
-        shears.append((side, fit))
+        shears[side] = fit
     return shears
 
 
 def _from_loads(
-    last: dict[str, FittedEdge], dQ: float, dsigma: float
-) -> dict[str, tuple[float, float, float, float]]:
+    end: Step, last: dict[str, FittedEdge], shown: str, dQ: float, dsigma: float
+) -> dict[str, ShearFit]:
     """Compute K_T and L_T of full stick from the loads, as in generated/full_stick.py."""
-    h = last["right"].pressure.edge - last["left"].pressure.edge
-    h_error = hypot(last["right"].pressure.edge_error, last["left"].pressure.edge_error)
-    coefficients = {}
-    for side, sign in zip(SIDES, (1, -1), strict=True):
+    if end.q is not None:
+        raise BadTable(
+            shown,
+            "the table has a shear traction, and --dQ or --dsigma is given as well",
+            "remove either the shear column or these options",
+        )
+    if len(last) < 2:
+        raise BadTable(
+            shown,
+            "the table has only one edge, but --dQ and --dsigma need both",
+            "give a column with the shear traction instead",
+        )
+    left, right = last["left"].pressure, last["right"].pressure
+    h, h_error = right.edge - left.edge, hypot(right.edge_error, left.edge_error)
 
-        def both(h: float, sign: int = sign) -> tuple[float, float]:
-            by_tension = sign * dsigma * h / 8
-            return (dQ / np.pi + by_tension) / h**0.5, (dQ / np.pi - 3 * by_tension) / (2 * h**1.5)
+    def coefficients(h: float, sign: int) -> tuple[float, float]:
+        by_tension = sign * dsigma * h / 8
+        return (dQ / np.pi + by_tension) / h**0.5, (dQ / np.pi - 3 * by_tension) / (2 * h**1.5)
 
-        (K_T, L_T), (K_2, L_2) = both(h), both(h + h_error)
-        coefficients[side] = (K_T, abs(K_2 - K_T), L_T, abs(L_2 - L_T))
-    return coefficients
+    found = {}
+    for side, sign in INWARD.items():
+        (K_T, L_T), (K_2, L_2) = coefficients(h, sign), coefficients(h + h_error, sign)
+        found[side] = ShearFit(
+            *(K_T, L_T, abs(K_2 - K_T), abs(L_2 - L_T)),
+            *(0, nan, 0, nan),  # no nodes and no fit
+            why="",
+            warning="",
+        )
+    return found
 
 
-def _move(first: FittedEdge | None, last: FittedEdge) -> float:
-    """Return how far an edge moves outward from the start to the end of the half-cycle."""
-    if first is None:
-        return 0.0
-    outward = -1 if last.side == "left" else 1
-    return outward * (last.pressure.edge - first.pressure.edge) + 0.0  # not -0
-
-
-def _zone(
-    side: str,
-    last: dict[str, FittedEdge],
-    first: dict[str, FittedEdge],
-    stuck: dict[str, tuple[float, float, float, float]],
-    moves: dict[str, float],
-    f: float,
-) -> Zone:
+def _zone(side: str, last: dict[str, FittedEdge], stuck: dict[str, ShearFit], f: float) -> Zone:
     """Compute the slip zone of one edge, to the second order if that is more certain."""
-    fit, (K_T, K_T_error, L_T, L_T_error) = last[side].pressure, stuck[side]
-    other_side = SIDES[1 - SIDES.index(side)]
-    width = other_K_T = by_other = None
-    if other_side in last and other_side in stuck:
+    edge, fit, shear = last[side], last[side].pressure, stuck[side]
+    values = {"K_N": fit.K_N, "K_T": shear.K_T, "L_N": fit.L_N, "L_T": shear.L_T, "da": edge.da}
+    errors = {"K_N": fit.K_N_error, "K_T": shear.K_T_error, "L_N": fit.L_N_error}
+    errors |= {"L_T": shear.L_T_error, "da": edge.da_error}
+    width = None
+    if len(stuck) == 2:  # the other edge determines L_T and adds to K_T, as in docs/edge.md
         width = last["right"].pressure.edge - last["left"].pressure.edge
-        other_K_T, other_fit = stuck[other_side][0], last[other_side].pressure
-        other = slip_zone(other_fit.K_N, other_K_T, f=f, da=moves[other_side])
-        by_other = other_K_T * float(other.d) / (4 * width)  # as in docs/edge.md
-        L_T_error = 0.0
-    values = {"K_N": fit.K_N, "K_T": K_T, "L_N": fit.L_N, "L_T": L_T, "da": moves[side]}
-    errors = {"K_N": fit.K_N_error, "K_T": K_T_error, "L_N": fit.L_N_error, "L_T": L_T_error}
-    errors["da"] = hypot(fit.edge_error, first[side].pressure.edge_error) if moves[side] else 0.0
+        (other,) = stuck.keys() - {side}
+        other_K_T = stuck[other].K_T
+        other_d = slip_zone(last[other].pressure.K_N, other_K_T, f=f, da=last[other].da).d
+        errors["L_T"] = 0.0
 
     def length(order: int, **changed: float) -> float:
         used = values | changed
-        if width and other_K_T and by_other and order == 2:
-            used |= {"L_T": (2 * other_K_T - used["K_T"]) / (2 * width)}
-            used |= {"K_T": used["K_T"] + by_other}
+        if width and order == 2:
+            used["L_T"] = (2 * other_K_T - used["K_T"]) / (2 * width)
+            used["K_T"] += other_K_T * float(other_d) / (4 * width)
         return float(slip_zone(**used, f=f, h=width, order=order).d)
 
     def with_error(order: int) -> tuple[float, float]:
@@ -294,6 +287,6 @@ def _zone(
     series = abs(d - first_d)
     if not error < hypot(first_error, series):
         d, error, order = first_d, first_error, 1
-    distance = reach(fit.K_N, K_T, L_N=fit.L_N, L_T=L_T, h=width)
+    distance = reach(fit.K_N, shear.K_T, L_N=fit.L_N, L_T=shear.L_T, h=width)
     part = d / float(distance) if distance > 0 else nan
-    return Zone(side, K_T, K_T_error, moves[side], d, error, series, order, part)
+    return Zone(d, error, series, order, part)

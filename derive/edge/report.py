@@ -3,13 +3,13 @@
 import csv
 import io
 from collections.abc import Iterator, Sequence
-from math import floor, isfinite, log10, nan
+from math import floor, isfinite, log10
 
 import numpy as np
 from markupsafe import Markup
 
 from derive.command.terminal import folded
-from derive.edge.find import SIDES, Findings, FittedEdge
+from derive.edge.find import INWARD, Findings, FittedEdge
 from derive.edge.table import Step
 from derive.sheet.page import templates
 from derive.sheet.picture import Line, svg
@@ -55,29 +55,30 @@ def edge_rows(findings: Findings) -> list[tuple[str, ...]]:
 
 
 def zone_rows(findings: Findings) -> list[tuple[str, ...]]:
-    """Return one row for each edge."""
+    """Return one row for each edge with a slip zone."""
     return [
         (
-            zone.side,
-            _pm(zone.K_T, zone.K_T_error, 1e-6 * 1000**0.5),
-            f"{1e6 * zone.da + 0.0:.4g}",
-            _pm(zone.d, zone.error, 1e6),
-            f"{1e6 * zone.series:.1g}",
-            str(zone.order),
-            f"{zone.part:.2g}",
+            e.side,
+            _pm(e.shear.K_T, e.shear.K_T_error, 1e-6 * 1000**0.5),
+            f"{1e6 * e.da + 0.0:.4g}",
+            _pm(e.zone.d, e.zone.error, 1e6),
+            f"{1e6 * e.zone.series:.1g}",
+            str(e.zone.order),
+            f"{e.zone.part:.2g}",
         )
-        for zone in findings.zones
+        for e in findings.edges
+        if e.shear and e.zone
     ]
 
 
 def as_text(findings: Findings) -> str:
     """Return tables for a terminal; +- is one standard deviation."""
     parts = ["Edges", *_aligned([HEAD, *edge_rows(findings)])]
-    if findings.zones:
+    if zones := zone_rows(findings):
         parts += [
             "",
             "Slip zones at the end of the half-cycle",
-            *_aligned([ZONES, *zone_rows(findings)]),
+            *_aligned([ZONES, *zones]),
             "",
             f"  {SERIES}",
             f"  {REACH}",
@@ -88,7 +89,11 @@ def as_text(findings: Findings) -> str:
         where = f"{e.step}, " if e.step else ""
         if e.pressure.why:
             parts.append(folded(f"  {where}{e.side}: {e.pressure.why}"))
-    parts += [folded(f"  {side}, shear: {fit.why}") for side, fit in findings.shears if fit.why]
+    parts += [
+        folded(f"  {e.side}, shear: {e.shear.why}")
+        for e in findings.edges
+        if e.shear and e.shear.why
+    ]
     if findings.notes:
         parts += ["", "Notes", *(folded(f"  {note}") for note in findings.notes)]
     return "\n".join(parts)
@@ -109,15 +114,16 @@ def as_csv(findings: Findings) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     names = ["edge", "K_N", "L_N", "edge_error", "K_N_error", "L_N_error", "nodes", "stretch"]
-    zone_names = ["K_T", "K_T_error", "da", "d", "error", "series", "order", "part"]
-    writer.writerow(["load_step", "side", *names, *zone_names])
-    zones = {zone.side: zone for zone in findings.zones}
-    last = findings.edges[-1].step
+    of_shear, of_zone = ["K_T", "K_T_error"], ["d", "error", "series", "order", "part"]
+    writer.writerow(["load_step", "side", *names, *of_shear, "da", *of_zone])
     for e in findings.edges:
-        zone = zones.get(e.side) if e.step == last else None
         row = [repr(getattr(e.pressure, name)) for name in names]
-        more = [repr(getattr(zone, name)) if zone else "" for name in zone_names]
-        writer.writerow([_inert(e.step), e.side, *row, *more])
+        if e.zone:
+            row += [repr(getattr(e.shear, name)) for name in of_shear]
+            row += [repr(e.da), *(repr(getattr(e.zone, name)) for name in of_zone)]
+        else:
+            row += [""] * (len(of_shear) + 1 + len(of_zone))
+        writer.writerow([_inert(e.step), e.side, *row])
     return out.getvalue()
 
 
@@ -129,24 +135,23 @@ def _inert(label: str) -> str:
 def as_page(findings: Findings, steps: Sequence[Step], title: str) -> str:
     """Return an HTML page with a picture of each edge at the end of the half-cycle."""
     last = [e for e in findings.edges if e.step == steps[-1].name and np.isfinite(e.pressure.edge)]
-    ends = {zone.side: zone.d for zone in findings.zones}
+    zones = zone_rows(findings)
     made = templates("derive.edge", "edge")
     return made.get_template("report.html").render(
         title=title,
         edge_head=HEAD,
         edges=edge_rows(findings),
         zone_head=ZONES,
-        zones=zone_rows(findings),
-        legend=["± is one standard deviation", *([SERIES, REACH] if findings.zones else [])],
-        pictures=[(e, Markup(_picture(e, steps[-1], ends.get(e.side, nan)))) for e in last],
+        zones=zones,
+        legend=["± is one standard deviation", *([SERIES, REACH] if zones else [])],
+        pictures=[(e, Markup(_picture(e, steps[-1]))) for e in last],
         notes=findings.notes,
     )
 
 
-def _picture(e: FittedEdge, step: Step, d: float) -> str:
+def _picture(e: FittedEdge, step: Step) -> str:
     """Plot nodal pressures, the fit and K_N sqrt(s) against the distance s on log axes."""
-    sense = 1 if e.side == SIDES[0] else -1
-    s, p = sense * (step.x - e.pressure.edge), step.p
+    s, p = INWARD[e.side] * (step.x - e.pressure.edge), step.p
     shown = (s > 0) & (p > 0) & (s <= 4 * e.pressure.stretch)
     s, p = s[shown], p[shown]
     if len(s) < 2:
@@ -156,9 +161,9 @@ def _picture(e: FittedEdge, step: Step, d: float) -> str:
     second = first + e.pressure.L_N * fine**1.5
     above = second > 0
     curves = [("first", fine, first), ("both", fine[above], second[above]), ("nodes", s, p)]
-    if fine[0] < d < s.max():
+    if e.zone and fine[0] < e.zone.d < s.max():
         heights = np.array([min(p.min(), first.min()), max(p.max(), first.max())])
-        curves.append(("end of the slip zone", np.full(2, d), heights))
+        curves.append(("end of the slip zone", np.full(2, e.zone.d), heights))
     lines = [Line(name, 1e3 * x, 1e-6 * y, name == "nodes") for name, x, y in curves]
     labels = "pressure at an edge", "distance from the edge [mm]", "pressure [MPa]"
     return svg(*labels, lines, is_log=True)

@@ -6,7 +6,7 @@ from its printed text.
 """
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from markupsafe import Markup
@@ -41,37 +41,27 @@ SKETCHED = 1.5
 """The range of x in the sketch of a profile, on either side, in half-widths."""
 
 
-class Pictures(NamedTuple):
-    """The pictures of one body.
+def pictures(sheet: FormulaSheet, body: BuiltBody) -> dict[str, Any]:
+    """What the template figures.html shows of one body.
 
-    labels      the labels of the pressure curves
-    drawn_at    the values of the parameters at which the pictures are drawn
-    has_corner  whether the body has a corner, where the pressure is infinite
+    profile, pressure  the pictures
+    labels             the labels of the pressure curves
+    drawn_at           the values of the parameters at which the pictures are drawn
+    has_corner         whether the body has a corner, where the pressure is infinite
     """
-
-    profile: Markup
-    pressure: Markup
-    labels: tuple[str, ...]
-    drawn_at: str
-    has_corner: bool
-
-
-def pictures(sheet: FormulaSheet, body: BuiltBody) -> Pictures:
-    """The pictures of one body."""
     half, law = drawn_at(sheet)
     corners = _corners(sheet, law)
     with imported(body.name, body.text, body.stuck) as module:
         lines = tuple(_pressures(module, half, law, corners))
     reach = 1.1 * max(max(line.x) for line in lines)
-    values = ", ".join(f"{name} = {value:g}" for name, value in law.items())
-    largest = max(float(np.median(line.y)) for line in lines)
-    return Pictures(
-        Markup(svg("profile g(x)", "x/a₀", "g/a₀", [_profile(sheet, reach)])),
-        Markup(svg("contact pressure p(x)", "x/a₀", "2 a₀ p/P", lines, top=4 * largest)),
-        tuple(line.label for line in lines),
-        values,
-        bool(corners),
-    )
+    top = 4 * max(float(np.median(line.y)) for line in lines)
+    return {
+        "profile": Markup(svg("profile g(x)", "x/a₀", "g/a₀", [_profile(sheet, reach)])),
+        "pressure": Markup(svg("contact pressure p(x)", "x/a₀", "2 a₀ p/P", lines, top)),
+        "labels": [line.label for line in lines],
+        "drawn_at": ", ".join(f"{name} = {value:g}" for name, value in law.items()),
+        "has_corner": bool(corners),
+    }
 
 
 def profile(sheet: FormulaSheet) -> Markup:

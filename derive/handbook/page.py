@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from functools import cache
-from typing import NamedTuple
 
 import jinja2
 from markupsafe import Markup
@@ -19,18 +18,6 @@ from derive.sheet.page import templates
 from derive.sheet.prose import unit
 
 
-class Entry(NamedTuple):
-    """One body in the index."""
-
-    name: str
-    title: str
-    profile: Markup
-    sketch: Markup
-    closed: tuple[str, ...]
-    numerical: tuple[str, ...]
-    formulas: int
-
-
 def page(sheet: FormulaSheet, body: BuiltBody, index: bool = False) -> str:
     """The page of one body, from its proven sheet.
 
@@ -42,7 +29,6 @@ def page(sheet: FormulaSheet, body: BuiltBody, index: bool = False) -> str:
         _templates()
         .get_template("page.html")
         .render(
-            entry=entry(sheet, body),
             sheet=sheet.demand_proven(),
             figures=figures(sheet, body),
             code=_code(body.text),
@@ -55,27 +41,19 @@ def page(sheet: FormulaSheet, body: BuiltBody, index: bool = False) -> str:
 
 def figures(sheet: FormulaSheet, body: BuiltBody) -> Markup:
     """The profile and the pressure of one body, with captions; figures.css contains the style."""
-    drawn = pictures(sheet, body)._asdict()
-    return Markup(_templates().get_template("figures.html").render(drawn))
+    template = _templates().get_template("figures.html")
+    return Markup(template.render(pictures(sheet, body)))
 
 
-def index_of(entries: Sequence[Entry]) -> str:
-    """The page with links to all others; the page of a body `name` is name.html."""
-    return _templates().get_template("index.html").render(entries=entries, style=_style())
-
-
-def entry(sheet: FormulaSheet, body: BuiltBody) -> Entry:
+def card(sheet: FormulaSheet, body: BuiltBody) -> Markup:
     """The entry of a body in the index."""
-    geometry = sheet.geometry
-    return Entry(
-        geometry.name,
-        geometry.title,
-        mathml(rf"g(x) = {latex_of(geometry.g)}"),
-        profile(sheet),
-        body.closed,
-        body.numerical,
-        len(sheet),
-    )
+    template = _templates().get_template("card.html")
+    return Markup(template.render(sheet=sheet, body=body, sketch=profile(sheet)))
+
+
+def index_of(cards: Sequence[Markup]) -> str:
+    """The page with links to all others; the page of a body `name` is name.html."""
+    return _templates().get_template("index.html").render(cards=cards, style=_style())
 
 
 def _code(text: str) -> Markup:

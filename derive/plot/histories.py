@@ -15,30 +15,23 @@ from matplotlib.axes import Axes
 from derive.plot.given import (
     demand_friction,
     demand_labels,
-    demand_numbers,
     positions_of,
     times,
 )
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, canvas, style
-from derive.plot.tractions import band, peak
+from derive.plot.tractions import band, note_unknown, peak
 from derive.plot.zones import AREAS, key, kinds_of_slip
 
 
-def _bounds(body: ModuleType, history: Any, x: Array, f: float, constants: Any) -> Array:
-    """f p at all positions and instants; NaN at a corner, where p is infinite."""
-    demand_numbers(f=f, **constants)
+def _bounds(
+    body: ModuleType, history: Any, x: Array, f: float, constants: Any
+) -> tuple[Array, Array]:
+    """The positions, and f p there at all instants; NaN at a corner, where p is infinite."""
+    x = positions_of(history, x)
     bound = f * body.pressure(x, history.a[:, None], history.c[:, None], **constants)
     demand_friction(history, x, bound)
-    return np.where(np.isfinite(bound), bound, np.nan)
-
-
-def _note_missing(axes: Axes, what: str, names: Sequence[str], curves: Array) -> None:
-    """Write in the picture which of the curves are not known."""
-    missing = [n for n, y in zip(names, curves, strict=True) if not np.any(np.isfinite(y))]
-    if missing:
-        text = f"{what} not known: {', '.join(missing)}"
-        axes.text(0.02, 0.015, text, transform=axes.transAxes)
+    return x, np.where(np.isfinite(bound), bound, np.nan)
 
 
 def _instants(at: Any, count: int) -> list[int]:
@@ -47,7 +40,7 @@ def _instants(at: Any, count: int) -> list[int]:
         found = [range(count)[i] for i in at]
     except (TypeError, IndexError):
         found = []
-    if not found or any(isinstance(i, bool) for i in at):
+    if not found:
         raise ValueError(
             f"`at` is {at!r:.60}; give a list of at least one index from {-count} to {count - 1}, "
             f"because history has {count} instants"
@@ -105,25 +98,24 @@ def instants(
     ValueError
         If the history does not fit x, f, the body or the constants; the message says what is wrong.
     """
-    x, count = positions_of(history, x), np.size(history.a)
-    numbers = _instants(at, count)
-    demand_labels(labels, len(at), "instants")
-    bound = _bounds(body, history, x, f, constants)
-    chosen = [bound[i] for i in at]
+    x, bound = _bounds(body, history, x, f, constants)
+    numbers = _instants(at, np.size(history.a))
+    demand_labels(labels, len(numbers), "instants")
+    chosen = bound[numbers]
     touching = (x >= -np.min(history.a)) & (x <= np.min(history.c))
     slip = np.where(touching, history.slip, np.nan)
     length = length or unit(x, "m")
-    stress, depth = stress or unit(peak(*chosen), "Pa"), unit(slip, "m")
+    stress, depth = stress or unit(peak(chosen), "Pa"), unit(slip, "m")
     with canvas(axes, 2, size=(5.6, 5.0)) as axes:
         names = list(labels) or [f"instant {i}" for i in numbers]
-        for number, (i, name, limit) in enumerate(zip(at, names, chosen, strict=True)):
-            if number == 0 or not np.allclose(limit, chosen[0], equal_nan=True):
-                band(axes[0], length(x), stress(limit), "" if number else r"$\pm f\,p$")
+        for number, (i, name) in enumerate(zip(numbers, names, strict=True)):
+            if number == 0 or not np.allclose(bound[i], chosen[0], equal_nan=True):
+                band(axes[0], length(x), stress(bound[i]), "" if number else r"$\pm f\,p$")
             axes[0].plot(length(x), stress(history.q[i]), label=name)
             axes[1].plot(length(x), depth(slip[i]))
-        _note_missing(axes[0], "shear", names, history.q[numbers])
-        _note_missing(axes[1], "slip", names, slip[numbers])
-        highest = 1.15 * peak(*(stress(limit) for limit in chosen))
+        note_unknown(axes[0], "shear", names, history.q[numbers])
+        note_unknown(axes[1], "slip", names, slip[numbers])
+        highest = 1.15 * peak(stress(chosen))
         axes[0].set(ylabel=stress.label("q"), ylim=(-highest, highest))
         axes[1].set(xlabel=length.label("x"), ylabel=depth.label("s"))
         key(axes[0])
@@ -148,10 +140,9 @@ def friction_work(
     ndarray, shape (n,)
         The work [J/m²]; NaN where the slip is not known.
     """
-    bound = _bounds(body, history, positions_of(history, x), f, constants)
+    _, bound = _bounds(body, history, x, f, constants)
     step = np.abs(np.diff(history.slip, axis=0))
-    still = step == 0
-    return np.sum(np.where(still, 0.0, (bound[1:] + bound[:-1]) / 2 * step), axis=0)
+    return np.sum(np.where(step == 0, 0.0, (bound[1:] + bound[:-1]) / 2 * step), axis=0)
 
 
 def work(
@@ -218,15 +209,13 @@ def film(
     FuncAnimation
         Its method `save` writes a GIF, and `to_jshtml` makes a player for a notebook.
     """
-    x, at = positions_of(history, x), times(time, np.arange(np.size(history.a), dtype=float))
-    bound = _bounds(body, history, x, f, constants)
+    x, bound = _bounds(body, history, x, f, constants)
+    at = times(time, np.arange(np.size(history.a), dtype=float))
     length, stress = length or unit(x, "m"), stress or unit(peak(bound), "Pa")
     position, highest = length(x), 1.15 * peak(stress(bound))
     senses = np.vstack([np.zeros(np.size(x)), kinds_of_slip(history)])
     with canvas(axes, size=(5.0, 3.0)) as axes:
-        grey: dict[str, Any] = {"color": "#888888", "linewidth": 1}
-        (upper,) = axes.plot([], [], label=r"$\pm f\,p$", **grey)
-        (lower,) = axes.plot([], [], **grey)
+        upper, lower = band(axes, [], np.array([]), r"$\pm f\,p$")
         (shear,) = axes.plot([], [], color=COLOURS["vermilion"], linewidth=2, label="$q$")
         areas = [
             axes.fill_between([], [], [], label=name, zorder=0.5, **AREAS[name])

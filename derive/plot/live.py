@@ -10,8 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from derive.command.errors import MissingLibrary
-from derive.plot.given import demand_numbers
-from derive.plot.measure import Measure, unit
+from derive.plot.measure import unit
 from derive.plot.style import style
 from derive.plot.tractions import tractions
 from derive.plot.zones import regime_in_words
@@ -44,7 +43,7 @@ class Loads(NamedTuple):
     f: float
 
 
-SCALES = {"P": "N/m", "M": "N", "dQ": "N/m", "dsigma": "Pa", "f": "-"}
+UNITS = {"P": "N/m", "M": "N", "dQ": "N/m", "dsigma": "Pa", "f": "-"}
 """The SI unit of each load."""
 
 
@@ -55,61 +54,56 @@ class _Picture:
     widened for a contact beyond their limits, such as one under M and a small P.
     """
 
-    def __init__(
-        self, body: ModuleType, largest: Loads, start: Loads, constants: dict[str, float]
-    ) -> None:
-        demand_numbers(**largest._asdict())
-        if np.any(np.abs(start) > np.asarray(largest)):
-            raise ValueError(f"{start} is beyond the ends of the sliders, {largest}; give others")
+    def __init__(self, body: ModuleType, largest: Loads, constants: dict[str, float]) -> None:
         self.body, self.constants = body, constants
-        moments = np.array([largest.M, -largest.M])
-        farthest = body.contact(largest.P, moments, **constants)
+        farthest = body.contact(largest.P, np.array([largest.M, -largest.M]), **constants)
         if not np.any(np.isfinite(farthest.a)):
             raise ValueError(f"the body cannot carry {largest}; give other largest loads")
         self.reach = 1.04 * float(np.nanmax([farthest.a, farthest.c]))
         mean = largest.P / float(np.nanmin(farthest.a + farthest.c))
-        self.units: dict[str, Any] = {"length": unit(self.reach, "m"), "stress": unit(mean, "Pa")}
+        self.length, self.stress = unit(self.reach, "m"), unit(mean, "Pa")
         with style():
             self.figure = Figure(figsize=(8.4, 4.8), dpi=200)
             self.figure.set_layout_engine("none")  # because computing a new layout takes long
             place = {"left": 0.09, "right": 0.98, "bottom": 0.11, "top": 0.93, "hspace": 0.25}
             self.axes = self.figure.subplots(2, 1, sharex=True, gridspec_kw=place)
 
-    def show(self, loads: Loads) -> str:
-        """Draw the cycle under these loads, and describe it in one line."""
+    def draw(self, loads: Loads) -> tuple[bytes, str]:
+        """Draw the cycle under these loads: a file in the format PNG, and a line of text."""
         for axes in self.axes:
             axes.clear()
         P, M, dQ, dsigma, f = loads
         state = self.body.contact(P, M, **self.constants)
-        if not np.isfinite(state.a):
-            return "no contact: the body cannot carry these loads"
-        law: Any = {"f": f, **self.constants}
-        tractions(self.body, state, state, dQ, dsigma, axes=self.axes, **self.units, **law)
-        zone, length = self.body.stick_zone(state, state, dQ, dsigma, **law), self.units["length"]
-        ends = [-self.reach, self.reach, -1.05 * state.a, 1.05 * state.c]
-        self.axes[1].set_xlim(float(length(min(ends))), float(length(max(ends))))
-
-        def lengths(*values: float) -> str:
-            return ", ".join(f"{float(length(value)):.4f}" for value in values)
-
-        regime, name = regime_in_words(self.body, zone), length.name
-        parts = [f"{regime}: contact [{lengths(-state.a, state.c)}] {name}"]
-        parts.append(f"tilt {1e3 * float(state.alpha):.3f} mrad")
-        if np.isfinite(zone.m):
-            parts.append(f"stick [{lengths(-zone.m, zone.n)}] {name}")
-            parts.append(f"slip {lengths(state.a - zone.m)} and {lengths(state.c - zone.n)} {name}")
-        threshold = self.body.tension_threshold(state, state, dQ, **law).upper
-        if np.isfinite(threshold):
-            moderate = unit(threshold, "Pa")
-            parts.append(f"tension is moderate up to {moderate(threshold):.4g} {moderate.name}")
-        return "; ".join(parts)
-
-    def png(self) -> bytes:
-        """The current picture as a file in the format PNG."""
+        line = "no contact: the body cannot carry these loads"
+        if np.isfinite(state.a):
+            law: Any = {"f": f, **self.constants}
+            of_axes: Any = {"axes": self.axes, "length": self.length, "stress": self.stress}
+            tractions(self.body, state, state, dQ, dsigma, **of_axes, **law)
+            ends = [-self.reach, self.reach, -1.05 * state.a, 1.05 * state.c]
+            self.axes[1].set_xlim(float(self.length(min(ends))), float(self.length(max(ends))))
+            line = self._in_words(state, dQ, dsigma, law)
         target = BytesIO()
         with style():
             FigureCanvasAgg(self.figure).print_png(target)  # type: ignore[no-untyped-call]
-        return target.getvalue()
+        return target.getvalue(), line
+
+    def _in_words(self, state: Any, dQ: float, dsigma: float, law: dict[str, float]) -> str:
+        """The regime, the contact, the stick zone and the slip zones in one line."""
+
+        def lengths(*values: float) -> str:
+            return ", ".join(f"{float(self.length(value)):.4f}" for value in values)
+
+        zone, name = self.body.stick_zone(state, state, dQ, dsigma, **law), self.length.name
+        line = f"{regime_in_words(self.body, zone)}: contact [{lengths(-state.a, state.c)}] {name}"
+        line += f"; tilt {1e3 * float(state.alpha):.3f} mrad"
+        if np.isfinite(zone.m):
+            line += f"; stick [{lengths(-zone.m, zone.n)}] {name}"
+            line += f"; slip {lengths(state.a - zone.m)} and {lengths(state.c - zone.n)} {name}"
+        threshold = self.body.tension_threshold(state, state, dQ, **law).upper
+        if np.isfinite(threshold):
+            moderate = unit(threshold, "Pa")
+            line += f"; tension is moderate up to {moderate(threshold):.4g} {moderate.name}"
+        return line
 
 
 def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) -> Any:
@@ -142,31 +136,32 @@ def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) 
         raise MissingLibrary("ipywidgets", "changing the loads with sliders", "notebooks")
     import ipywidgets
 
-    live = _Picture(body, largest, start, constants)
+    if not np.all(np.abs(start) <= np.asarray(largest)):
+        raise ValueError(f"{start} is beyond the ends of the sliders, {largest}; give others")
+    live = _Picture(body, largest, constants)
     picture, line = ipywidgets.Image(format="png", width=840), ipywidgets.HTML()
+    measures = [unit(most, of) for most, of in zip(largest, UNITS.values(), strict=True)]
     controls = []
-    for (name, of), most, value in zip(SCALES.items(), largest, start, strict=True):
-        measure = unit(most, of) if of != "-" else Measure(1.0, of)
-        size, step = measure.size, most / STEPS
+    for name, measure, most, value in zip(UNITS, measures, largest, start, strict=True):
+        step = most / STEPS
         least = {"P": step, "f": step, "dQ": 0.0}.get(name, -most)  # P and f are never zero
+        ends = {"min": least, "max": most, "step": step, "value": value}
         slider = ipywidgets.FloatSlider(
-            value=value / size,
-            min=least / size,
-            max=most / size,
-            step=step / size,
+            **{end: number / measure.size for end, number in ends.items()},
             description=f"{name} [{measure.name}]",
             readout_format=".4g",
             style={"description_width": "100px"},
             layout={"width": "400px"},
         )
-        controls.append((slider, size))
+        controls.append(slider)
 
     def follow(_: Any = None) -> None:
-        line.value = live.show(Loads(*(slider.value * size for slider, size in controls)))
-        picture.value = live.png()
+        pairs = zip(controls, measures, strict=True)
+        loads = Loads(*(slider.value * measure.size for slider, measure in pairs))
+        picture.value, line.value = live.draw(loads)
 
-    for slider, _ in controls:
+    for slider in controls:
         slider.observe(follow, names="value")
     follow()
-    row = ipywidgets.HBox([slider for slider, _ in controls], layout={"flex_flow": "row wrap"})
+    row = ipywidgets.HBox(controls, layout={"flex_flow": "row wrap"})
     return ipywidgets.VBox([row, picture, line])

@@ -93,6 +93,7 @@ _PREFIXES = {
     "N": ((1.0, "N"),),
     "rad": ((1.0, "rad"), (1e-3, "mrad")),
     "J/m²": ((1e3, "kJ/m²"), (1.0, "J/m²")),
+    "-": ((1.0, "-"),),
 }
 _LEAST = 0.1
 """The largest value in the chosen unit is at least this number."""
@@ -106,7 +107,7 @@ def unit(values: Array, of: str) -> Measure:
     values : array_like
         The values that will be drawn, in SI units.
     of : str
-        Their SI unit: m, Pa, N/m, N, rad or J/m².
+        Their SI unit: m, Pa, N/m, N, rad, J/m², or - for none.
 
     Returns
     -------
@@ -126,8 +127,7 @@ def unit(values: Array, of: str) -> Measure:
     known = _PREFIXES.get(of)
     if known is None:
         raise ValueError(f"the unit {of!r} is not known; give one of {', '.join(_PREFIXES)}")
-    finite = np.abs(np.asarray(values, dtype=float))
-    finite = finite[np.isfinite(finite)]
-    greatest = float(np.max(finite)) if finite.size else 0.0
+    values = np.abs(np.asarray(values, dtype=float))
+    greatest = np.max(values, initial=0.0, where=np.isfinite(values))
     fitting = (Measure(size, name) for size, name in known if greatest >= _LEAST * size)
     return next(fitting, Measure(1.0, of))

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
-from derive.plot.given import demand_contact, demand_half_cycle, demand_labels
+from derive.plot.given import demand_contact, demand_labels, zone_of
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, canvas
 from derive.plot.zones import AREAS, MIXED, key, regime_in_words, senses
@@ -69,12 +70,12 @@ def pressures(
     Raises
     ------
     ValueError
-        If a contact is not one of this body with these constants, or the number of labels is wrong.
+        If a contact is not a single one, or the number of labels is wrong.
     """
     demand_labels(labels, len(states), "states")
     lines = []
     for i, state in enumerate(states):
-        demand_contact(f"states[{i}]", body, state, constants)
+        demand_contact(f"states[{i}]", state)
         x = places(-float(state.a), float(state.c))
         lines.append((x, body.pressure(x, state.a, state.c, **constants)))
     length = length or unit([x for x, _ in lines], "m")
@@ -140,15 +141,13 @@ def tractions(
     Raises
     ------
     ValueError
-        If a contact is not one of this body with these constants, dQ < 0, or f is not positive.
+        If these are not one half-cycle; the message is that of `why`.
     """
-    ends = {"first": first, "second": second}
-    demand_half_cycle(body, ends, f, constants, dQ=dQ, dsigma=dsigma)
     law = {"f": f, **constants}
+    zone = zone_of(body, first, second, dQ, dsigma, mixed, **law)
     x = places(-float(max(first.a, second.a)), float(max(first.c, second.c)))
     p1, p2 = (body.pressure(x, s.a, s.c, **constants) for s in (first, second))
     shear = body.shear_change(x, first, second, dQ, dsigma, **law)
-    zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
     length, stress = length or unit(x, "m"), stress or unit(peak(p1, p2), "Pa")
     with canvas(axes, 2, size=(5.6, 5.0)) as axes:
         above, below = axes
@@ -165,12 +164,9 @@ def tractions(
         )
         _shade(axes, second, zone, dsigma, length)
         above.set(ylabel=stress.label("p"), ylim=(0, 1.08 * peak(stress(p1), stress(p2))))
-        known = np.isfinite(shear)
-        if not np.any(known):
-            _say_why(below, body, zone, "shear")
-        highest = 1.6 * (np.max(np.abs(stress(shear[known])), initial=0.0) or peak(limit))
+        note_unknown(below, "shear", [regime_in_words(body, zone)], [shear])
         below.set(xlabel=length.label("x"), ylabel=stress.label(r"\Delta q"))
-        below.set_ylim(-highest, highest)
+        _centre(below, stress(shear), limit)
         for each in axes:
             key(each)
     return axes
@@ -193,7 +189,8 @@ def shear(
 ) -> Axes:
     """Draw the shear traction at and between both ends of a cycle under constant normal loads.
 
-    The surfaces slip where the shear traction reaches the bound f p.
+    The surfaces slip where the shear traction reaches the bound f p.  A note in the picture says at
+    which end the shear traction is not known.
 
     Parameters
     ----------
@@ -214,40 +211,28 @@ def shear(
     Raises
     ------
     ValueError
-        If the contact is not one of this body with these constants, or the shear traction is not
-        known; the message gives the reason.
+        If the changes are not one half-cycle; the message is that of `why`.
     """
     if not isinstance(between, int) or between < 0:
         raise ValueError(f"between is {between!r}; give a whole number of states, 0 or more")
-    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    demand_half_cycle(body, {"contact": contact}, f, constants, **loads)
     law = {"f": f, **constants}
+    zone_of(body, contact, contact, dQ, dsigma, mixed=False, **law)
     x = places(-float(contact.a), float(contact.c))
     bound = f * body.pressure(x, contact.a, contact.c, **constants)
     parts = np.linspace(0.0, 1.0, between + 2)
     q = body.shear(
         x, contact, Q, sigma, dQ=parts[:, None] * dQ, dsigma=parts[:, None] * dsigma, **law
     )
-    if not np.all(np.any(np.isfinite(q[[0, -1]]), axis=1)):
-        rise, fall = (
-            regime_in_words(body, body.stick_zone(contact, contact, *change, **law))
-            for change in ((2 * Q, 2 * sigma), (dQ, dsigma))
-        )
-        raise ValueError(
-            f"the shear traction is not known for Q = {Q:g}, sigma = {sigma:g}, dQ = {dQ:g} and "
-            f"dsigma = {dsigma:g}, where the regime of the first rise is {rise} and that of the "
-            f"fall is {fall}; give loads under which both are full stick, moderate or large, and "
-            "the end with the larger shear load as Q and sigma, so that dQ <= 2 Q"
-        )
     length, stress = length or unit(x, "m"), stress or unit(peak(bound), "Pa")
     with canvas(axes) as axes:
         band(axes, length(x), stress(bound), r"$\pm f\,p$")
         for inner in q[1:-1]:
             axes.plot(length(x), stress(inner), color=COLOURS["sky"], linewidth=0.8)
-        for end, colour, label in ((0, "vermilion", "upper end"), (-1, "blue", "lower end")):
-            axes.plot(length(x), stress(q[end]), color=COLOURS[colour], linewidth=2, label=label)
-        highest = 1.6 * np.nanmax(np.abs(stress(q)), initial=0.0) or peak(stress(bound))
-        axes.set_ylim(-highest, highest)
+        names = ("upper end", "lower end")
+        for name, end, colour in zip(names, q[[0, -1]], ("vermilion", "blue"), strict=True):
+            axes.plot(length(x), stress(end), color=COLOURS[colour], linewidth=2, label=name)
+        note_unknown(axes, "shear", names, q[[0, -1]])
+        _centre(axes, stress(q), stress(bound))
         axes.set(xlabel=length.label("x"), ylabel=stress.label("q"))
         key(axes)
     return axes
@@ -258,30 +243,35 @@ def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Meas
     if not np.isfinite(zone.m):
         return
     reversing = "slip reverses" if int(zone.regime) == MIXED else ""
-    named = set()
-    for (start, end), sense in zip(
-        ((-at.a, -zone.m), (zone.n, at.c)), senses(zone, dsigma), strict=True
+    for start, end, sense in zip(
+        (-at.a, zone.n), (-zone.m, at.c), senses(zone, dsigma), strict=True
     ):
-        name = {1: "forward slip", -1: "reverse slip"}.get(int(sense), reversing)
-        if not name:
-            continue
-        for each in axes:
-            label = name if each is axes[-1] and name not in named else None
-            ends = float(length(start)), float(length(end))
-            each.axvspan(*ends, label=label, zorder=0.5, **AREAS[name])
-        named.add(name)
+        if name := {1: "forward slip", -1: "reverse slip"}.get(int(sense), reversing):
+            for each in axes:
+                label = name if each is axes[-1] else None
+                ends = float(length(start)), float(length(end))
+                each.axvspan(*ends, label=label, zorder=0.5, **AREAS[name])
 
 
-def band(axes: Axes, x: Array, limit: Array, label: str) -> None:
+def band(axes: Axes, x: Array, limit: Array, label: str) -> list[Line2D]:
     """Draw the friction bounds of either sign."""
-    for side, text in ((1, label), (-1, None)):
-        axes.plot(x, side * limit, color="#888888", linewidth=1, label=text)
+    look: dict[str, Any] = {"color": "#888888", "linewidth": 1}
+    return [*axes.plot(x, limit, label=label, **look), *axes.plot(x, -limit, **look)]
 
 
-def _say_why(axes: Axes, body: ModuleType, zone: Any, what: str) -> None:
-    """Write a note in place of a curve that is not known."""
-    regime = regime_in_words(body, zone)
-    axes.text(0.02, 0.06, f"{regime}: the {what} is not known", transform=axes.transAxes)
+def note_unknown(axes: Axes, what: str, names: Sequence[str], curves: Array) -> None:
+    """Write in the picture which of the curves are not known."""
+    unknown = [n for n, y in zip(names, curves, strict=True) if not np.any(np.isfinite(y))]
+    if unknown:
+        text = f"{what} not known: {', '.join(unknown)}"
+        axes.text(0.02, 0.015, text, transform=axes.transAxes)
+
+
+def _centre(axes: Axes, shear: Array, limit: Array) -> None:
+    """Centre the axis of shear on zero, with room for the shear, or for its limit if it is zero."""
+    largest = np.max(np.abs(shear), initial=0.0, where=np.isfinite(shear))
+    highest = 1.6 * (largest or peak(limit))
+    axes.set_ylim(-highest, highest)
 
 
 def slip(
@@ -311,10 +301,8 @@ def slip(
     sequence of Axes
         The two Axes with the pictures.
     """
-    contacts = {"first": first, "second": second}
-    demand_half_cycle(body, contacts, f, constants, dQ=dQ, dsigma=dsigma)
     law = {"f": f, **constants}
-    zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
+    zone = zone_of(body, first, second, dQ, dsigma, mixed, **law)
     left, right = -float(min(first.a, second.a)), float(min(first.c, second.c))
     ends = (-float(zone.m), float(zone.n)) if np.isfinite(zone.m) else (left, right)
     x = np.append(places(left, ends[0], IN_A_ZONE), places(ends[1], right, IN_A_ZONE))
@@ -324,13 +312,10 @@ def slip(
     work = f * np.where(mean == np.inf, np.nan, mean) * slipped
     length, depth, joule = length or unit(x, "m"), unit(slipped, "m"), unit(work, "J/m²")
     with canvas(axes, 2, size=(5.6, 4.6)) as axes:
-        for each, values, colour in zip(
-            axes, (depth(slipped), joule(work)), ("blue", "vermilion"), strict=True
-        ):
-            each.plot(length(x), values, color=COLOURS[colour])
+        axes[0].plot(length(x), depth(slipped), color=COLOURS["blue"])
+        axes[1].plot(length(x), joule(work), color=COLOURS["vermilion"])
         _shade(axes, second, zone, dsigma, length)
-        if not np.any(np.isfinite(slipped)):
-            _say_why(axes[0], body, zone, "slip")
+        note_unknown(axes[0], "slip", [regime_in_words(body, zone)], [slipped])
         axes[0].set(ylabel=depth.label("s"))
         axes[1].set(xlabel=length.label("x"), ylabel=joule.label("f\\,p\\,s"))
         if axes[1].get_legend_handles_labels()[1]:

@@ -1,6 +1,5 @@
 """Maps of stick and slip: position against time, in a cycle or any history, or a parameter."""
 
-from collections.abc import Iterator
 from math import ceil
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -8,6 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
+from scipy.ndimage import binary_dilation
 
 from derive.plot.given import positions_of, row, times
 from derive.plot.measure import Array, Measure, unit
@@ -173,7 +173,6 @@ def slip_map(
         If the history does not fit x, has fewer than two instants, or has no contact.
     """
     x, at = positions_of(history, x), times(time, np.arange(np.size(history.a), dtype=float))
-    at = row("time", at)
     length = length or unit(np.append(history.a, history.c), "m")
     kinds = kinds_of_slip(history)
     touching = np.isfinite(history.a)
@@ -193,7 +192,7 @@ def slip_map(
             if np.any(kinds.compressed() == sense):
                 axes.fill_between([], [], [], label=name, **AREAS[name])
         if np.any(unknown):
-            look = {"where": widened(unknown), "label": "not known", **AREAS["not known"]}
+            look = {"where": binary_dilation(unknown), "label": "not known", **AREAS["not known"]}
             axes.fill_between(at, low, high, zorder=0.55, **look)
         axes.set(
             xlabel="instant" if time is None else "$t$", ylim=(least - margin, greatest + margin)
@@ -227,15 +226,22 @@ def _map(at: Array, zones: Any, axes: Axes | None, length: Measure | None, legen
     length = length or unit(np.append(zones.a, zones.c), "m")
     low, high = -length(zones.a), length(zones.c)
     start, end = -length(zones.m), length(zones.n)
+    touching, known = np.isfinite(low), np.isfinite(start)
+    areas = [("stick", low, high, touching)]
+    for lower, upper, sense in ((low, start, zones.left), (end, high, zones.right)):
+        areas += [
+            ("forward slip", lower, upper, known & (sense == 1)),
+            ("reverse slip", lower, upper, known & (sense == -1)),
+            ("slip reverses", lower, upper, known & (sense == 0) & (zones.regime == MIXED)),
+        ]
+    # the neighbours of unknown values leave no gap next to known ones
+    areas.append(("not known", low, high, binary_dilation(touching & ~known)))
     with canvas(axes, size=(5.6, 3.6)) as axes:
-        labels = set()
-        for i, (name, edges, where) in enumerate(_areas(zones, low, high, start, end)):
-            look = {**AREAS[name], "label": None if name in labels else name}
-            axes.fill_between(at, *edges, where=where, zorder=0.5 + i / 100, **look)
-            labels.add(name)
-        for edge, label in ((start, "exact"), (end, None)):
-            broken = _broken(at, edge, (zones.left, zones.right))
-            axes.plot(*broken, label=label, **LINES["exact"])
+        for i, (name, lower, upper, where) in enumerate(areas):
+            if np.any(where):
+                look = {"where": where, "label": name, "zorder": 0.5 + i / 100, **AREAS[name]}
+                axes.fill_between(at, lower, upper, **look)
+        boundaries(axes, at, zones, "exact", length=length)
         _finish(axes, at, (low, high), length, legend)
     return axes
 
@@ -252,34 +258,6 @@ def _finish(
         key(axes)
 
 
-def _areas(
-    zones: Any, low: Array, high: Array, start: Array, end: Array
-) -> Iterator[tuple[str, tuple[Array, Array], Array]]:
-    """The areas to fill: name, the two lines that bound it, and the values where it exists."""
-    touching = np.isfinite(low) & np.isfinite(high)
-    known = np.isfinite(start) & np.isfinite(end)
-    yield "stick", (low, high), touching
-    for edges, sense in (((low, start), zones.left), ((end, high), zones.right)):
-        reverses = known & (sense == 0) & (zones.regime == MIXED)
-        for name, where in (
-            ("forward slip", known & (sense == 1)),
-            ("reverse slip", known & (sense == -1)),
-            ("slip reverses", reverses),
-        ):
-            if np.any(where):
-                yield name, edges, where
-    if np.any(touching & ~known):
-        yield "not known", (low, high), widened(touching & ~known)
-
-
-def widened(unknown: Array) -> Array:
-    """The mask, extended by one value on either side to leave no gap next to known values."""
-    wide = unknown.copy()
-    wide[1:] |= unknown[:-1]
-    wide[:-1] |= unknown[1:]
-    return wide
-
-
 def key(axes: Axes) -> None:
     """Draw the legend of a map above it; call it again after drawing more lines.
 
@@ -289,17 +267,18 @@ def key(axes: Axes) -> None:
         The Axes of the map.
     """
     handles, labels = axes.get_legend_handles_labels()
+    shown = dict(zip(labels, handles, strict=True))  # each name once
     spec = axes.get_subplotspec()
     columns = spec.get_gridspec().ncols if spec else 1
     wide = axes.figure.get_figwidth() / columns  # type: ignore[union-attr]
-    rows = ceil(len(labels) / max(2, int(wide / 1.25)))
+    rows = ceil(len(shown) / max(2, int(wide / 1.25)))
     with style():
         axes.legend(
-            handles,
-            labels,
+            list(shown.values()),
+            list(shown),
             loc="lower left",
             bbox_to_anchor=(0, 1.0),
-            ncols=ceil(len(labels) / max(rows, 1)),
+            ncols=ceil(len(shown) / max(rows, 1)),
             borderaxespad=0.2,
             handlelength=1.6,
             handletextpad=0.4,

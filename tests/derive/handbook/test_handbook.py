@@ -13,7 +13,7 @@ from sympy import Abs
 from derive import Geometry, derive_sheet, parameter, x
 from derive.command.folder import replace_folder, with_manifest
 from derive.handbook.curves import OWN, drawn_at, pictures
-from derive.handbook.page import entry, index_of, page
+from derive.handbook.page import card, index_of, page
 from derive.pipeline import GENERATED
 from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
@@ -43,7 +43,7 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("books") / "handbook"
     bodies = [made(name) for name in NAMES]
     texts = {f"{sheet.geometry.name}.html": page(sheet, b, index=True) for sheet, b in bodies}
-    texts["index.html"] = index_of([entry(sheet, b) for sheet, b in bodies])
+    texts["index.html"] = index_of([card(sheet, b) for sheet, b in bodies])
     replace_folder(with_manifest(texts), folder)
     return folder
 
@@ -61,7 +61,7 @@ def test_nothing_of_the_sheet_is_missing(pages: Path, name: str) -> None:
     assert text.count("assumed by a test") == len(sheet)
     for function in re.findall(r"^def (\w+)", body.text, re.M):
         assert f'<span class="nf">{function}</span>' in text
-    assert text.count("<polyline") == 1 + len(pictures(sheet, body).labels)
+    assert text.count("<polyline") == 1 + len(pictures(sheet, body)["labels"])
 
 
 def test_words_of_a_user_are_escaped() -> None:
@@ -77,8 +77,8 @@ def test_words_of_a_user_are_escaped() -> None:
 def test_a_pressure_rises_out_of_the_picture_at_a_corner(name: str, corners: int) -> None:
     """Each of the three curves is cut into one part more than it has corners."""
     drawn = pictures(*made(name))
-    parts = re.findall(r'<polyline class="curve curve-\d" points="([^"]+)"', drawn.pressure)
-    assert drawn.has_corner and len(parts) == 3 * (1 + corners)
+    parts = re.findall(r'<polyline class="curve curve-\d" points="([^"]+)"', drawn["pressure"])
+    assert drawn["has_corner"] and len(parts) == 3 * (1 + corners)
     ends = [point.split(",")[1] for part in parts for point in (part.split()[0], part.split()[-1])]
     assert ends.count(f"{TOP:.1f}") == 2 * 3 * corners
 
