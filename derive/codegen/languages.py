@@ -46,10 +46,11 @@ from sympy.printing.octave import OctaveCodePrinter
 
 from derive.codegen import contract
 from derive.codegen.contract import CONTRACT
-from derive.codegen.program import Program, Step
+from derive.codegen.program import Program
 from derive.command.errors import NoSuchName
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import M, P, a, c, e, x
+from derive.theory.parts import Definition
 
 _ELEMENTARY = (
     *(exp, log, Abs, Max, Min, Piecewise),
@@ -155,12 +156,12 @@ def _function(
     """One formula as a function; the symbols of the sheet that occur in it become steps."""
     body, formula, print_ = sheet.geometry.name, sheet[name], _printing(language)
     symbols = (*function.arguments, *function.keywords(sheet))
-    steps = [Step(s, expr, "") for s, expr in sheet.defined_in(name).items()]
-    steps += [Step(e, M / P, "")] if P in symbols else []
+    steps = [Definition(s, expr, "") for s, expr in sheet.defined_in(name).items()]
+    steps += [Definition(e, M / P, "")] if P in symbols else []
     program = Program({name: sheet.shown(name)}, tuple(steps))
     condition, words = And(*function.conditions(sheet)), f"{formula.meaning} [{formula.unit}]"
     if x in symbols:
-        inside = Step(Symbol("x_in", real=True), Max(-a, Min(x, c)), "")
+        inside = Definition(Symbol("x_in", real=True), Max(-a, Min(x, c)), "")
         program = program.mapped(lambda expr: expr.xreplace({x: inside.symbol})).with_steps(inside)
         condition = And(condition, Eq(x, Symbol(x.name)))  # in C, a maximum ignores NaN
         words += "; zero outside the contact"

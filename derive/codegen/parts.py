@@ -17,12 +17,12 @@ from sympy import Piecewise
 from derive.codegen.contract import CONTRACT
 from derive.codegen.function import FunctionText, checks_of, printer_of, step_lines
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.program import Program, Step
+from derive.codegen.program import Program
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
 from derive.symbols import a, c
 from derive.theory.frame import Frame
-from derive.theory.parts import parts_of
+from derive.theory.parts import Definition, parts_of
 from derive.theory.segments import definitions_of
 
 
@@ -38,22 +38,22 @@ def parts_programs(sheet: FormulaSheet) -> Mapping[str, Program]:
     return _programs(sheet)[0]
 
 
-def common_steps(sheet: FormulaSheet) -> tuple[Step, ...]:
+def common_steps(sheet: FormulaSheet) -> tuple[Definition, ...]:
     """The steps that all functions have in common, unless that is only the contact width."""
     return _programs(sheet)[1]
 
 
-def _programs(sheet: FormulaSheet) -> tuple[Mapping[str, Program], tuple[Step, ...]]:
+def _programs(sheet: FormulaSheet) -> tuple[Mapping[str, Program], tuple[Definition, ...]]:
     return _programs_of(sheet.frame, tuple(q.name for q in sheet.geometry.parameters))
 
 
 @lru_cache(maxsize=2)
 def _programs_of(
     frame: Frame, taken: tuple[str, ...]
-) -> tuple[Mapping[str, Program], tuple[Step, ...]]:
+) -> tuple[Mapping[str, Program], tuple[Definition, ...]]:
     """The programs and their common steps; `taken` are names that no step may have."""
     parts, made = parts_of(frame), {}
-    steps = tuple(Step(d.symbol, d.expr, d.meaning) for d in parts.definitions)
+    steps = parts.definitions
     for function in (f for f in CONTRACT if f.formulas[0] in parts.formulas):
         outputs = {field: parts.formulas[str(name)] for field, name in function.fields}
         needed = Program(outputs, steps).ordered().steps

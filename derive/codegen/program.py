@@ -5,19 +5,10 @@ from dataclasses import dataclass, replace
 
 from sympy import Expr, Symbol
 
-from derive.theory.segments import written_out
+from derive.theory.parts import Definition
 
 LEAST, MOST = Symbol("LEAST", positive=True), Symbol("MOST", positive=True)
 """The shortest and the longest length whose products stay well inside float64."""
-
-
-@dataclass(frozen=True)
-class Step:
-    """symbol = expr, with a short description for the reader."""
-
-    symbol: Symbol
-    expr: Expr
-    meaning: str
 
 
 @dataclass(frozen=True)
@@ -25,7 +16,7 @@ class Program:
     """The steps in the order of evaluation, and one expression for each output."""
 
     outputs: Mapping[str, Expr]
-    steps: tuple[Step, ...] = ()
+    steps: tuple[Definition, ...] = ()
 
     def mapped(self, change: Callable[[Expr], Expr]) -> "Program":
         """The program with `change` applied to every expression."""
@@ -36,7 +27,7 @@ class Program:
         """The program with `change` applied to its outputs alone."""
         return replace(self, outputs={name: change(expr) for name, expr in self.outputs.items()})
 
-    def with_steps(self, *steps: Step) -> "Program":
+    def with_steps(self, *steps: Definition) -> "Program":
         """The program with more steps, which replace their expressions wherever these occur."""
         program = self
         for step in steps:
@@ -47,7 +38,7 @@ class Program:
     def ordered(self) -> "Program":
         """The program with only the steps that its outputs need, each after those it depends on."""
         by_symbol = {s.symbol: s for s in self.steps}
-        done: dict[Symbol, Step] = {}
+        done: dict[Symbol, Definition] = {}
 
         def visit(expr: Expr) -> None:
             for symbol in sorted(expr.free_symbols, key=str):
@@ -80,7 +71,3 @@ class Program:
     def exprs(self) -> list[Expr]:
         """All expressions: the outputs, then the steps."""
         return [*self.outputs.values(), *(step.expr for step in self.steps)]
-
-    def in_mathematics(self) -> "Program":
-        """The program in elementary functions, with every named function written out."""
-        return self.mapped(written_out)

@@ -31,13 +31,14 @@ from sympy import (
 )
 
 from derive.body.piece import vanishes
-from derive.codegen.program import Program, Step
+from derive.codegen.program import Program
 from derive.proof.points import Point, named, numeric, numeric_by_steps
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import M, P, a, alpha, c, e, h, w, x
 from derive.theory.frame import Frame
-from derive.theory.segments import kink_logarithm
+from derive.theory.parts import Definition
+from derive.theory.segments import kink_logarithm, written_out
 
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
@@ -48,16 +49,16 @@ _tangent = Dummy("tangent", real=True)
 def stable_program(sheet: FormulaSheet, outputs: Mapping[str, Expr], example: Point) -> Program:
     """The outputs in stable forms; `example` is any point that meets their assumptions."""
     frame = sheet.frame
-    steps: list[Step] = []
+    steps: list[Definition] = []
     for k in frame.kinks:
         at = f"the kink x = {k.kink.position}"
-        steps.append(Step(k.theta, k.angle, f"angle of the contact beyond {at}"))
-        steps.append(Step(k.w, k.root, f"root at {at}"))
+        steps.append(Definition(k.theta, k.angle, f"angle of the contact beyond {at}"))
+        steps.append(Definition(k.w, k.root, f"root at {at}"))
     program = Program(outputs, tuple(steps)).with_outputs(
         lambda expr: logarithms_to_log1p(angles_about_the_right_angle(expr, frame), frame)
     )
     program = roots_under_the_edges(sums_without_difference(program)).with_steps(
-        Step(e, M / P, "lever arm of the load"), Step(_h, h, "contact width")
+        Definition(e, M / P, "lever arm of the load"), Definition(_h, h, "contact width")
     )
     program = tangents_from_both_ends(program, example)
     return program.renamed(q.name for q in sheet.geometry.parameters).ordered()
@@ -65,7 +66,7 @@ def stable_program(sheet: FormulaSheet, outputs: Mapping[str, Expr], example: Po
 
 def prove_equal(program: Program, source: Mapping[str, Expr], points: Iterable[Point]) -> Proof:
     """Compare the program numerically with the formulas that it was made from."""
-    plain = program.in_mathematics()
+    plain = program.mapped(written_out)
     steps = [(step.symbol, step.expr) for step in plain.steps]
     values = {name: numeric_by_steps(steps, expr) for name, expr in plain.outputs.items()}
     with mpmath.workdps(WORKING):
@@ -122,7 +123,7 @@ def logarithms_to_log1p(expr: Expr, frame: Frame) -> Expr:
 
 def sums_without_difference(program: Program) -> Program:
     """A + sqrt(A**2 + B**2) -> B**2/(sqrt(A**2 + B**2) - A) where A < 0, for one B > 0."""
-    steps: tuple[Step, ...] = ()
+    steps: tuple[Definition, ...] = ()
 
     def change(expr: Expr) -> Expr:
         nonlocal steps
@@ -131,8 +132,8 @@ def sums_without_difference(program: Program) -> Program:
             other = sqrt(factor(root.base - expand(leg**2)))
             if other.is_positive:
                 steps = (
-                    Step(_base, other, "half-width without the moment"),
-                    Step(_reach, sqrt(leg**2 + _base**2), "half-width with the moment"),
+                    Definition(_base, other, "half-width without the moment"),
+                    Definition(_reach, sqrt(leg**2 + _base**2), "half-width with the moment"),
                 )
                 return Piecewise((leg + _reach, leg > 0), (_base**2 / (_reach - leg), True))
         return expr
@@ -155,7 +156,7 @@ def tangents_from_both_ends(program: Program, example: Point) -> Program:
     rest = factor(together(angle - right))
     both = Piecewise((tangent, Abs(angle) < pi / 4), (-1 / tan(rest), True))
     program = program.with_outputs(lambda expr: expr.xreplace({tangent: _tangent}))
-    step = Step(_tangent, both, "from the nearer of 0 and a right angle")
+    step = Definition(_tangent, both, "from the nearer of 0 and a right angle")
     return replace(program, steps=(*program.steps, step))
 
 
@@ -167,4 +168,4 @@ def roots_under_the_edges(program: Program) -> Program:
     if not any(expr.has(x) for expr in program.outputs.values()):
         return program
     program = program.mapped(lambda expr: expr.subs(w, _w))
-    return program.with_steps(Step(_w, sqrt(Max(0, (a + x) * (c - x))), "root at x"))
+    return program.with_steps(Definition(_w, sqrt(Max(0, (a + x) * (c - x))), "root at x"))

@@ -17,8 +17,7 @@ from sympy import Expr, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.body.geometry import Geometry
-from derive.proof.balls import Function
-from derive.proof.values import Undefined, evaluated, program
+from derive.proof.values import Undefined, evaluated
 from derive.proof.verdict import POINTS
 from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
@@ -144,11 +143,6 @@ def numeric_by_steps(steps: Iterable[tuple[Symbol, Expr]], expr: Expr) -> Callab
         return last(known)
 
     return at
-
-
-def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Function]:
-    """`expr` at a point as a function of one variable, in balls for quadrature."""
-    return program(expr.subs(e, M / P), variable, twice=False).function
 
 
 _LEANING = 40

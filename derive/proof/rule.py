@@ -14,7 +14,7 @@ nothing, so that no node is shared.  Ten times the difference is the radius of t
 compares each integral with another route, and goes without.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
@@ -47,19 +47,6 @@ that the integrand divides by zero in the working digits."""
 
 Nodes = Sequence[tuple[arb, bool, arb]]
 """For each node its distance from an end, whether that is the upper end, and its weight."""
-
-
-def remembered(function: Function) -> Function:
-    """Remember values of `function` at every node and precision, since integrals share nodes."""
-    known: dict[tuple[int, int], tuple[Ball, Ball]] = {}
-
-    def at(place: Ball) -> Ball:
-        asked = (id(place), ctx.prec)
-        if asked not in known:
-            known[asked] = place, function(place)  # kept, so that its id stays unique
-        return known[asked][1]
-
-    return at
 
 
 def integral(integrand: Function, cuts: Sequence[mpf]) -> Ball:
@@ -111,7 +98,7 @@ def _part(integrand: Function, low: mpf, high: mpf, finer: int = _FINER) -> Ball
 def _gauss(integrand: Function, low: mpf, high: mpf) -> Iterator[tuple[Ball, arb]]:
     """Sums with more and more of Gauss's nodes, and the same of the modulus."""
     for count in _GAUSS:
-        yield _summed(integrand, _placed(low, high, _of_gauss, count, 0, ctx.prec))
+        yield _summed(integrand, low, high, _of_gauss(count, ctx.prec))
 
 
 def _clustered(integrand: Function, low: mpf, high: mpf) -> Iterator[tuple[Ball, arb]]:
@@ -119,18 +106,21 @@ def _clustered(integrand: Function, low: mpf, high: mpf) -> Iterator[tuple[Ball,
     total: Ball = arb(0)
     size = arb(0)
     for level in range(_HALVINGS):
-        placed = _placed(low, high, _of_level, level, mpmath.mp.dps, ctx.prec)
-        more, moduli = _summed(integrand, placed)
+        nodes = _of_level(level, mpmath.mp.dps, ctx.prec)
+        more, moduli = _summed(integrand, low, high, nodes)
         total, size = total / 2 + more, size / 2 + moduli
         if level > 1:
             yield total, size
 
 
-def _summed(integrand: Function, placed: Sequence[tuple[arb, arb]]) -> tuple[Ball, arb]:
+def _summed(integrand: Function, low: mpf, high: mpf, nodes: Nodes) -> tuple[Ball, arb]:
+    start, end = arb(low), arb(high)
+    length = end - start
     total: Ball = arb(0)
     size, lost, whole = arb(0), arb(0), arb(0)
-    for place, weight in placed:
-        term = weight * integrand(place)
+    for distance, from_above, weight in nodes:
+        place = end - length * distance if from_above else start + length * distance
+        term = length * weight * integrand(place)
         whole += weight
         if term.is_finite():
             total += term
@@ -140,21 +130,8 @@ def _summed(integrand: Function, placed: Sequence[tuple[arb, arb]]) -> tuple[Bal
     return total if lost <= _AT_AN_END * whole else arb("nan"), size
 
 
-@lru_cache(maxsize=4096)
-def _placed(
-    low: mpf, high: mpf, nodes: Callable[[int, int, int], Nodes], *which: int
-) -> Sequence[tuple[arb, arb]]:
-    """Nodes between two points: always the same balls, so that values are remembered for them."""
-    start, end = arb(low), arb(high)
-    length = end - start
-    return [
-        (end - length * distance if from_above else start + length * distance, length * weight)
-        for distance, from_above, weight in nodes(*which)
-    ]
-
-
 @lru_cache(maxsize=256)
-def _of_gauss(count: int, _: int, bits: int) -> Nodes:
+def _of_gauss(count: int, bits: int) -> Nodes:
     """Nodes on [0, 1] with the roots of a Legendre polynomial in u, to so many bits."""
     pairs = [arb.legendre_p_root(count, k, weight=True) for k in range(count)]
     return [_node(1 - abs(place), place > 0, weight) for place, weight in pairs]

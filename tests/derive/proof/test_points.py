@@ -8,16 +8,7 @@ import pytest
 from mpmath import mpf
 from sympy import Integral, Symbol, symbols
 
-from derive.proof.balls import ball, digits, number
-from derive.proof.points import (
-    Point,
-    contacts,
-    draws,
-    holds,
-    loads,
-    numeric,
-    numeric_along,
-)
+from derive.proof.points import Point, contacts, draws, holds, loads, numeric
 from derive.proof.verdict import POINTS
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, x
 from tests.derive.bodies import EACH, sheet
@@ -99,20 +90,3 @@ def test_a_power_has_no_value_beyond_its_break_and_needs_none(edge: Symbol) -> N
             point[edge] = place + reach
             wanted = reach ** (power - 1) / (power - 1)
         assert mpmath.almosteq(value(point), wanted, rel_eps=mpf(10) ** -13)
-
-
-@pytest.mark.parametrize("name", ["wedge", pytest.param("spline", marks=pytest.mark.slow)])
-def test_a_formula_along_x_is_what_it_is_at_every_point(name: str) -> None:
-    """At two precisions in turn: what is computed once is so once a precision."""
-    of = sheet(name)
-    pressure = of.flat("pressure")
-    whole, along = numeric(pressure), numeric_along(pressure, x)
-    for point in contacts(of)[:6]:
-        at = along(point)
-        for working in (30, 60, 30):
-            with mpmath.workdps(working), digits(working + 20):
-                for place in (point[x], (point[c] - point[a]) / 2):
-                    wanted = whole({**point, x: place})
-                    size = max(abs(wanted), abs(whole(point)))
-                    found = number(at(ball(place)))
-                    assert abs(found - wanted) <= size * mpf(10) ** (8 - working)

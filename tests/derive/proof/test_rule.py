@@ -8,7 +8,7 @@ from flint import arb
 from mpmath import mpf
 
 from derive.proof.balls import Ball, ball, digits, known_digits, number
-from derive.proof.rule import integral, remembered
+from derive.proof.rule import integral
 
 DIGITS = 45
 
@@ -68,20 +68,3 @@ def test_what_is_not_computed_well_has_a_wide_ball(power: str) -> None:
 def test_where_a_part_of_the_integrand_is_no_number_the_integral_is_none() -> None:
     with mpmath.workdps(30):
         assert mpmath.isnan(number(integral(lambda t: t.sqrt(), [mpf(-1), mpf(0), mpf(1)])))
-
-
-def test_nodes_are_asked_once() -> None:
-    asked: list[Ball] = []
-
-    @remembered
-    def square(t: Ball) -> Ball:
-        asked.append(t)
-        return t * t
-
-    with mpmath.workdps(50):
-        first = integral(square, [mpf(0), mpf(1)])
-        count = len(asked)
-        again = integral(lambda t: square(t), [mpf(0), mpf(1)])
-        assert close(number(first), mpf(1) / 3)
-        assert number(again) == number(first)
-    assert len(asked) == count

@@ -10,7 +10,8 @@ import mpmath
 from mpmath import mpf
 
 from derive.proof.balls import Ball, ball, number
-from derive.proof.points import numeric, numeric_along
+from derive.proof.points import numeric
+from derive.proof.values import program
 from derive.symbols import x
 from tests.measure.accuracy.reference import function_of as in_mpmath
 from tests.measure.accuracy.reference import sheet_of
@@ -36,7 +37,7 @@ def formula(body: str, name: str) -> Formula:
 @cache
 def _pressure_along(body: str) -> Callable[..., Callable[[Ball], Ball]]:
     expr = sheet_of(body).flat("pressure")
-    along, held = numeric_along(expr, x), expr.free_symbols - {x}
+    along, held = program(expr, x).function, expr.free_symbols - {x}
     return lambda given: along({s: given[str(s)] for s in held})
 
 
