@@ -108,8 +108,8 @@ class Mutant(NamedTuple):
     def text(self) -> str:
         """The whole file with the fault."""
         tree = ast.parse((ROOT / self.path).read_text(encoding="utf-8"))
-        _, *change = [*_places(tree)][self.number]
-        setattr(*change)
+        _, changed, attribute, value = [*_places(tree)][self.number]
+        setattr(changed, attribute, value)
         return ast.unparse(tree)
 
     def tests(self, group: str) -> Iterator[tuple[str, ...]]:

@@ -106,6 +106,13 @@ def _step(target: Any, a: float, c: float, now: Any, first: float, second: float
 
 
 @kernel
+def _load_rounding(a: float, c: float, now: Any) -> float:
+    """The fraction of the load by which rounding of the edges changes it."""
+    load, _, _, left, right = now
+    return math.pi / 4 * EPS * math.sqrt(a + c) * (left * abs(a) + right * abs(c)) / load
+
+
+@kernel
 def _checked(slope: Any, own: Any, target: Any, a: float, c: float, now: Any) -> Any:
     """The error of a contact apart from rounding, and its tilt, which is NaN if not determined.
 
@@ -118,7 +125,7 @@ def _checked(slope: Any, own: Any, target: Any, a: float, c: float, now: Any) ->
         return math.inf, math.nan
     if not (abs(first) < math.inf and abs(moment) + abs(tilt) < math.inf):
         return math.inf, math.nan
-    edges = math.pi / 4 * EPS * math.sqrt(h) * (left * abs(a) + right * abs(c)) / load
+    edges = _load_rounding(a, c, now)
     given = EPS * (abs(target.tilt) * h / load if target.held else abs(target.place) / h)
     error = max(abs(first) - 16 * edges, (abs(second) - 16 * (edges + given)) / 16, 0.0)
     if edges > MAX_LOAD_ROUNDING or given > MAX_EDGE_ROUNDING:
@@ -245,6 +252,23 @@ def _piece(edge: float, inner: float, breaks: Any, side: float) -> Any:
 
 
 @kernel
+def _is_last(
+    edge: float, by: float, rounding: float, reach: float, breaks: Any, side: float
+) -> bool:
+    """Whether the next step of an edge is nothing but rounding.
+
+    It is the square of this step, relative to the distance over which K_N changes: to the closest
+    break on either side, where the curvature may be infinite, but at most `reach`.
+
+    rounding: how far rounding of the load moves this edge.
+    """
+    room = reach
+    for at in breaks:
+        room = min(room, abs(side * at - edge))
+    return abs(by) <= math.sqrt(EPS) * room + rounding
+
+
+@kernel
 def _found(state: Any, slope: Any, own: Any, breaks: Any, target: Any) -> Any:
     """The contact by Newton's method between bounds, or the closest one that it reached.
 
@@ -262,10 +286,15 @@ def _found(state: Any, slope: Any, own: Any, breaks: Any, target: Any) -> Any:
         from_c, to_c = _piece(c, target.place, breaks, 1.0)
         reach_a, reach_c = _reach(a, from_a), _reach(c, from_c)
         length = max(abs(by_a) / reach_a, abs(by_c) / reach_c)
-        rounding = 4 * EPS * max(abs(a) / reach_a, abs(c) / reach_c)
         error, last = math.hypot(first, second), error
-        if max(length, error) < math.sqrt(EPS) + rounding:  # the next error is the square
-            return a + by_a, c + by_c
+        rounding = 4 * (EPS + _load_rounding(a, c, now))
+        if error < math.sqrt(EPS) + rounding:
+            load, _, _, left, right = now
+            give = rounding * load / math.sqrt(a + c)
+            if _is_last(a, by_a, give / left, reach_a, breaks, -1.0) and _is_last(
+                c, by_c, give / right, reach_c, breaks, 1.0
+            ):
+                return a + by_a, c + by_c
         outward, on_right = first < 0, (first < 0) == (second < 0)
         if on_right and outward:
             low_c = c

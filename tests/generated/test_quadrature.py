@@ -22,7 +22,7 @@ from generated.runtime import pieces
 from generated.runtime.body import Body
 from generated.runtime.forward import each_pressure, each_series, each_state
 from generated.runtime.kernels import kernel
-from generated.runtime.types import Edges
+from generated.runtime.types import Contact, Edges
 from tests.derive import integrals
 
 pytestmark = pytest.mark.slow
@@ -251,3 +251,34 @@ def test_what_is_no_contact_carries_nothing() -> None:
     assert on == pytest.approx(beside, rel=1e-14)
     at = power.K_N(0.0, 1.0, **law)
     assert math.isnan(at.left) and at.right > 0
+
+
+@pytest.mark.parametrize("beyond", [2.0**-30, 2.0**-40, -(2.0**-30), -(2.0**-40)])
+def test_edges_close_to_an_infinite_curvature_are_found(beyond: float) -> None:
+    """They are within 2e-15 of the edges whose load, moment and tilt are found at 40 digits.
+
+    So is the zone that sticks in a wider contact, whose load is larger by dQ/(2 f) and whose tilt
+    by dsigma/(4 f E*).
+    """
+    own = {"k": 1.5625, "L": 1.0}
+    law = {"E_star": E_STAR, **own}
+    with mpmath.workdps(DIGITS):
+
+        def slope(s: mpf) -> mpf:
+            return mpmath.sign(s) * abs(s) ** 0.5625
+
+        given = slope, mpf(1), mpf(beyond), (0.0,)
+        rest = mpf(E_STAR), "tanh-sinh"
+        load, moment = (float(of(*given, *rest)) for of in (integrals.load, integrals.moment))
+        tilt = float(integrals.tilt(*given, "tanh-sinh"))
+    wide = Contact(1.125, 0.5, 0.0)
+    drop = power.load(wide.a, wide.c, **law) - load
+    turn = power.tilt(wide.a, wide.c, **own) - tilt
+    f = 0.5
+    dQ, dsigma = 2 * f * drop, 4 * f * E_STAR * turn
+    for found in (
+        power.contact(load, moment, **law),
+        power.contact_at_tilt(load, tilt, **law),
+        power.stick_zone(wide, wide, dQ, dsigma, f=f, **law),
+    ):
+        assert np.allclose(found[:2], (1.0, beyond), rtol=0, atol=2e-15)
