@@ -4,7 +4,7 @@
     -------------  ------------------------  --------------------------------------------------
     claim                                    the data class of a printed equation
     draw           claim                     points: random, over decades, at kinks and at spikes
-    numbers        two sides, point          both values to 30 digits that are certain
+    sides          claim, point              both sides to digits that are certain
     zero           expression                whether exact steps show that it vanishes identically
     repair         one side of an equation   similar expressions that may have been intended
     bodies         entry `body`              a body and its formulas, each proven

@@ -7,7 +7,6 @@ when arbitrary functions take their places: then it is true by the definitions o
 import hashlib
 import random
 from collections.abc import Iterator
-from functools import partial
 from itertools import islice
 
 from sympy import Derivative, Dummy, Expr, Limit, Rational
@@ -17,8 +16,8 @@ from derive.check.claim import Basis, Claim
 from derive.check.context import calls_in, integrals
 from derive.check.draw import has_integral, points, ranges_of
 from derive.check.intervals import gap_of, unsettled
-from derive.check.judge import Judged, Judging, Sides
-from derive.check.numbers import near
+from derive.check.judge import Judged, Judging
+from derive.check.sides import Sides
 from derive.command.errors import UserError
 from derive.command.limit import LookAtClock
 from derive.proof.values import Undecided
@@ -42,7 +41,7 @@ def basis(claim: Claim, judged: Judged, look: LookAtClock) -> Basis:
         return Basis.DEFINITIONS if _is_settled(claim) else meant.basis
     found = None
     for sides in _arbitrary(*meant.called):
-        is_true = _is_true(claim, sides, look)
+        is_true = _is_true(Sides(claim, *sides, {}), look)
         if is_true is False:
             return meant.basis
         found = found or is_true
@@ -63,21 +62,19 @@ def is_empty(claim: Claim, look: LookAtClock) -> bool:
     """Whether the equation by which a definition is judged is true for any other value, too."""
     if claim.meant.through is None:
         return False
-    sides = claim.meant.sides(claim.meant.left, 2 * claim.meant.right + 1)
-    table = dict(claim.meant.meaning)
-    left, right = (side.xreplace(table) for side in sides)
-    return _is_true(claim, (left, right), look) is not False
+    sides = Sides.printed(claim).put(claim.meant.left, 2 * claim.meant.right + 1)
+    return _is_true(sides, look) is not False
 
 
-def _is_true(claim: Claim, sides: tuple[Expr, Expr], look: LookAtClock) -> bool | None:
+def _is_true(sides: Sides, look: LookAtClock) -> bool | None:
     """Whether a claim is true with other sides; None if this is not known."""
-    judging = Judging(Sides(claim, *sides, {}), look)
+    judging, claim = Judging(sides, look), sides.claim
     try:
         if (tending := judging.limit()) is not None:
             return tending.good
         found = None
         for point in islice(points(claim), _FEW if has_integral(claim) else _POINTS):
-            is_true = near(*sides, partial(dict, point)) and judging.is_true(point)
+            is_true = sides.may_agree(point) and judging.is_true(point)
             if is_true is False:
                 return False
             found = found or is_true
@@ -97,13 +94,14 @@ def _arbitrary(*sides: Expr) -> Iterator[tuple[Expr, Expr]]:
 
 
 def _with_functions(side: Expr, sign: int) -> Expr:
-    found = proper(
-        side.replace(
-            lambda node: isinstance(node, AppliedUndef),
-            lambda call: _function(call.func.__name__, call.args, sign),
-        )
-    )
-    return found.doit() if found.has(Derivative, Limit) else found
+    while calls := [n for n in side.atoms(AppliedUndef) if not _has_call(n)]:
+        side = side.xreplace({n: _function(n.func.__name__, n.args, sign) for n in calls})
+    found = proper(side)
+    return found.xreplace({node: node.doit() for node in found.atoms(Derivative, Limit)})
+
+
+def _has_call(call: AppliedUndef) -> bool:
+    return any(arg.has(AppliedUndef) for arg in call.args)
 
 
 def _function(name: str, args: tuple[Expr, ...], sign: int) -> Expr:

@@ -1,34 +1,30 @@
 """Search for the simplest change of a false equation that makes it true.
 
-The changes come in batches.  Those that agree at a few points are judged like the printed equation,
-the plainest first, until one of them is true.
+The changes come in batches.  All changes of a batch are judged like the printed equation; the
+plainest of those that are true is the correction.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import islice, product
-from typing import Any
+from itertools import islice
 
-import mpmath
 from sympy import Expr, Symbol, Tuple, count_ops, sign
 
-from derive.check.claim import Basis, Claim, Point, Verdict
+from derive.check.claim import Basis, Claim, Verdict
 from derive.check.diagnosis import quotient, simple
 from derive.check.draw import has_integral, points, variables
-from derive.check.judge import Judged, Sides, judge, no_clock
-from derive.check.numbers import near
+from derive.check.judge import Judged, judge, no_clock
 from derive.check.repair import KINDS, WHOLE, Names, edits, swappable
+from derive.check.sides import Sides
 from derive.check.tending import Approach
 from derive.command.limit import LookAtClock
-from derive.proof.values import Undecided, evaluated
+from derive.proof.values import Undecided
 from derive.reading.relation import Relation
 from derive.reading.units import Dimension, Units, parse_unit
 
-_SCREENED = 3
-"""Number of points at which a correction is screened before it is judged in full."""
-_DRAWN = 16
-"""Number of points from which those points are chosen."""
+_DRAWN = 6
+"""Number of points among which this point is sought."""
 _LARGEST = 2
 """The largest power in a factor that may be lost."""
 _FIRSTS = 12
@@ -42,7 +38,7 @@ class Repair:
     change  the kind of the change, and what was changed
     judged  the evidence that it is true, once it has been judged
     on_left whether the left side was changed
-    also    other changes that passed the screening, in words
+    also    other changes that make it true, in words
     """
 
     left: Expr
@@ -72,26 +68,53 @@ _NOT_YET = Judged(Verdict.UNCHECKED, "")
 
 def repaired(claim: Claim, look: LookAtClock = no_clock) -> tuple[Repair | None, int]:
     """Return the simplest change that makes the claim true, and the number of changes tried."""
-    tried, screen = 0, _Screen(claim, look)
-    for batch in _batches(claim):
-        fitting = []
+    tried, printed = 0, Sides.printed(claim)
+    judged = _judged(printed, look)
+    for batch in _batches(printed):
+        true = []
         for each in batch:
-            look()
             tried += 1
-            if claim.meant.is_inequality or (not each.is_identity() and screen.fits(each)):
-                fitting.append(each)
+            if found := judged(each):
+                true.append(replace(each, judged=found))
         if claim.meant.toward is not None:
-            fitting = [*_outstanding(fitting)]
-        for each in sorted(fitting, key=lambda one: one.plainness):
-            of_its_relation = claim.changed(relation=each.relation)
-            judged = judge(of_its_relation, each.left, each.right, claim.meant.meaning, look)
-            # the sign of a square is 1, except at one point
-            is_doubtful = Tuple(each.left, each.right).has(sign) and not has_integral(claim)
-            if judged.verdict == Verdict.HOLDS or (judged.good and not is_doubtful):
-                others = {(one.left, one.right): one.change for one in fitting}
-                del others[each.left, each.right]  # changes that lead to the same equation
-                return replace(each, judged=judged, also=tuple(others.values())), tried
+            true = [*_outstanding(true)]
+        if true:
+            best, *others = sorted(true, key=lambda one: one.plainness)
+            also = {(one.left, one.right): one.change for one in others}
+            also.pop((best.left, best.right), None)  # changes that lead to the same equation
+            return replace(best, also=tuple(also.values())), tried
     return None, tried
+
+
+def _judged(printed: Sides, look: LookAtClock) -> Callable[[Repair], Judged | None]:
+    """Return what judges a change like the printed equation; it gives None if it is not true.
+
+    A change is first tried by a few digits at one point, where the printed sides are real.
+    """
+    claim, known = printed.claim, _units_of(printed.claim)
+    is_limit, is_equation = claim.meant.toward is not None, not claim.meant.is_inequality
+    approach = Approach(claim) if is_limit else None
+    drawn = list(islice(points(claim), _DRAWN if is_equation and not is_limit else 0))
+    first = [pair.point for pair in islice(printed.pairs(drawn), 1)] or drawn[:1]
+
+    def judged(each: Repair) -> Judged | None:
+        look()
+        sides = printed.put(each.left, each.right)
+        try:
+            if not all(map(sides.may_agree, first)):
+                return None
+        except Undecided:
+            return None
+        of_its_relation = replace(sides, claim=claim.changed(relation=each.relation))
+        found = judge(of_its_relation, look, approach)
+        is_idle = is_equation and each.is_identity()
+        is_misfit = is_limit and not _fit(known, each.left, each.right)
+        # the sign of a square is 1, except at one point
+        is_sure = has_integral(claim) or not Tuple(each.left, each.right).has(sign)
+        is_true = found.good and (is_sure or found.verdict == Verdict.HOLDS)
+        return found if is_true and not is_idle and not is_misfit else None
+
+    return judged
 
 
 def _outstanding(fitting: Sequence[Repair]) -> Sequence[Repair]:
@@ -109,7 +132,7 @@ def _outstanding(fitting: Sequence[Repair]) -> Sequence[Repair]:
 # ------------------------------------------------------------------ candidates
 
 
-def _batches(claim: Claim) -> Iterator[Iterable[Repair]]:
+def _batches(printed: Sides) -> Iterator[Iterable[Repair]]:
     """Yield changes of which the simplest true one is chosen, batch by batch.
 
     An inequality may be an equation, or the opposite inequality.  For an equation, single changes
@@ -117,30 +140,30 @@ def _batches(claim: Claim) -> Iterator[Iterable[Repair]]:
     of changes are tried.  If each trial is slow, changes of a whole side are tried first, and then
     single changes, kind by kind; near a limit, they are compared with each other.
     """
+    claim = printed.claim
     if claim.meant.is_inequality:
-        for relation in (Relation.EQUAL, claim.meant.relation.turned):
-            change = f"relation {relation} for {claim.meant.relation}"
-            if claim.meant.left != claim.meant.right:
-                sides = claim.meant.left, claim.meant.right
-                yield [Repair(*sides, relation, "relation", change, _NOT_YET)]
+        yield from ([each] for each in _other_relations(claim))
         return
-    single = _single(claim)
-    near_limit = claim.meant.toward is not None
-    if has_integral(claim) or near_limit:
-        every = list(single)
-        first = [each for each in every if each.change.endswith(WHOLE) or each.kind == "limit"]
-        yield [*first, *_names_lost(claim)] if near_limit else first
-        in_part = [each for each in every if each not in first]
-        if near_limit:
-            yield in_part
-            return
-        yield _scaled(claim)
-        for kind in KINDS:
-            yield (each for each in in_part if each.kind == kind)
-    else:
-        yield single
-        yield _scaled(claim)
+    single, factors = _single(claim), _scaled(printed)
+    if claim.meant.toward is None and not has_integral(claim):
+        yield from (single, factors, _double(claim))
+        return
+    every = list(single)
+    first = [each for each in every if each.change.endswith(WHOLE) or each.kind == "limit"]
+    in_part = [each for each in every if each not in first]
+    if claim.meant.toward is not None:
+        yield from ([*first, *factors], in_part)
+        return
+    yield from (first, factors)
+    yield from ((each for each in in_part if each.kind == kind) for kind in KINDS)
     yield _double(claim)
+
+
+def _other_relations(claim: Claim) -> Iterator[Repair]:
+    left, relation, right = claim.meant.left, claim.meant.relation, claim.meant.right
+    for other in (Relation.EQUAL, relation.turned) if left != right else ():
+        change = f"relation {other} for {relation}"
+        yield Repair(left, right, other, "relation", change, _NOT_YET)
 
 
 def _changed(claim: Claim, left: Expr, right: Expr, kind: str, what: str) -> Repair:
@@ -182,28 +205,28 @@ def _single(claim: Claim) -> Iterator[Repair]:
             yield _changed(claim, edit.expr, right, edit.kind, edit.what)
 
 
-def _scaled(claim: Claim) -> Iterator[Repair]:
-    """Yield the equation with the factor by which its sides differ, if it is simple."""
-    if claim.meant.through is not None or not variables(claim):
-        return
-    ratio = quotient(claim)
-    constant = simple(ratio.constant) if ratio is not None else None
-    if ratio is None or constant is None:
-        return
-    if ratio.powers == 1 or (constant == 1 and _may_be_lost(claim, ratio.powers)):
-        factor = constant * ratio.powers
+def _scaled(printed: Sides) -> Iterator[Repair]:
+    """Yield the equation with another factor on its right side, if one may be lost."""
+    claim = printed.claim
+    for factor in _factors(printed):
         changed = factor * claim.meant.right
         yield _changed(claim, claim.meant.left, changed, "factor", f"{factor} on {WHOLE}")
 
 
-def _names_lost(claim: Claim) -> Iterator[Repair]:
-    """Yield the equation with a variable that stays as another factor, if one may be lost."""
-    moves = Tuple(*(claim.meant.toward or ())).free_symbols
-    for name, power in product(variables(claim), (1, -1)):
-        if name not in moves and _may_be_lost(claim, name**power):
-            changed = name**power * claim.meant.right
-            what = f"{name**power} on {WHOLE}"
-            yield _changed(claim, claim.meant.left, changed, "factor", what)
+def _factors(printed: Sides) -> Iterator[Expr]:
+    """Yield the ratio of the sides, if it is simple, or near a limit each variable that stays."""
+    claim = printed.claim
+    if claim.meant.toward is not None:
+        moves = Tuple(*claim.meant.toward).free_symbols
+        powers = (n**p for n in variables(claim) if n not in moves for p in (1, -1))
+        yield from (power for power in powers if _may_be_lost(claim, power))
+    elif claim.meant.through is None and variables(claim):
+        ratio = quotient(printed)
+        constant = simple(ratio.constant) if ratio is not None else None
+        if ratio is None or constant is None:
+            return
+        if ratio.powers == 1 or (constant == 1 and _may_be_lost(claim, ratio.powers)):
+            yield constant * ratio.powers
 
 
 def _may_be_lost(claim: Claim, powers: Expr) -> bool:
@@ -226,49 +249,3 @@ def _double(claim: Claim) -> Iterator[Repair]:
         for second in edits(first.expr, names, plain=True):
             what = f"{first.what} and {second.kind} {second.what}"
             yield _changed(claim, claim.meant.left, second.expr, first.kind, what)
-
-
-# ------------------------------------------------------------------ screening
-
-
-class _Screen:
-    """Tests candidates at a few points; the values that they share are computed only once."""
-
-    def __init__(self, claim: Claim, look: LookAtClock) -> None:
-        self.claim, self.look, self.units = claim, look, _units_of(claim)
-        toward = claim.meant.toward
-        self.approach = None if toward is None else Approach(claim, toward)
-        self.known: dict[tuple[object, ...], Mapping[Symbol, Any]] = {}
-        drawn = list(points(claim, _DRAWN, "screen"))
-        if not claim.meant.cases and claim.meant.toward is None:  # where both sides are real
-            sides = self._sides(claim.meant.left, claim.meant.right).in_variables
-            real = list(islice((each for each in drawn if _are_real(sides, each)), _SCREENED))
-            drawn = real if len(real) == _SCREENED else drawn[:_SCREENED]
-        self.points = drawn
-
-    def _sides(self, left: Expr, right: Expr) -> Sides:
-        return Sides(
-            self.claim, *self.claim.meant.sides(left, right), self.claim.meant.meaning, self.known
-        )
-
-    def fits(self, candidate: Repair) -> bool:
-        """Whether a candidate agrees at the points, or near the limit of a claim that has one."""
-        sides = self._sides(candidate.left, candidate.right)
-        try:
-            if self.approach is not None:
-                found, _ = self.approach.judged(sides.in_variables, self.look)
-                is_true = found == Verdict.NUMERICAL
-                return is_true and _fit(self.units, candidate.left, candidate.right)
-            return all(
-                near(*sides.at_points, sides.numbers(point)) and sides.pair(point).agree
-                for point in self.points
-            )
-        except Undecided:
-            return False
-
-
-def _are_real(sides: Iterable[Expr], point: Point) -> bool:
-    try:
-        return all(mpmath.im(evaluated(side, point)) == 0 for side in sides)
-    except Undecided:
-        return False

@@ -5,17 +5,19 @@ equation is true at some points and false at others, a comparison of two names w
 or the sign of one name, may tell these points apart.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice, permutations, product
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Mul, Rational, S, Symbol, pi, root
+from sympy import Expr, Gt, Lt, Mul, Rational, S, Symbol, pi, root
+from sympy.logic.boolalg import Boolean
 
 from derive.check.claim import Claim, Point
-from derive.check.draw import further, has_integral, points, variables
+from derive.check.draw import further, has_integral, is_met, points, variables
+from derive.check.sides import Pair, Sides
 from derive.proof.balls import Value
 from derive.proof.values import Undecided, evaluated
 from derive.sheet.notation import text_of
@@ -34,6 +36,7 @@ _STEEPEST = 6
 _FALSE, _EACH = 6, 3
 """If a claim is false at this many points at first, it is taken to be false everywhere; the number
 of points at which a claim must be true, and false, to be called true in part."""
+_SIGNS = (("<", Lt), (">", Gt))
 
 
 @dataclass(frozen=True)
@@ -48,11 +51,12 @@ class Quotient:
     count: int
 
 
-def diagnosis(claim: Claim) -> str:
+def diagnosis(sides: Sides) -> str:
     """Describe the ratio of the two sides in words; empty if there is nothing to report."""
-    if claim.meant.relation.is_ordered or claim.meant.cases or claim.meant.toward is not None:
+    meant = sides.claim.meant
+    if meant.relation.is_ordered or meant.cases or meant.toward is not None:
         return ""
-    ratio = quotient(claim)
+    ratio = quotient(sides)
     if ratio is None:
         return ""
     constant = simple(ratio.constant, _LARGEST) or Symbol(mpmath.nstr(ratio.constant, 12))
@@ -60,19 +64,17 @@ def diagnosis(claim: Claim) -> str:
     return f"the ratio left/right is {formula} at {ratio.count} points"
 
 
-def quotient(claim: Claim) -> Quotient | None:
+def quotient(sides: Sides) -> Quotient | None:
     """Return the ratio of the two sides if it is a constant times powers of the variables."""
-    meant = claim.meant
-    sides = [side.xreplace(dict(meant.meaning)) for side in meant.compared]
-    names = variables(claim)
+    claim, names = sides.claim, variables(sides.claim)
     most = len(names) + 1 + _LEAST if has_integral(claim) else None
-    found, powers = list[tuple[Point, Value]](), None
+    found, powers = list[Pair](), None
     with mpmath.workdps(_DIGITS):
-        for where in (points(claim), further(claim, sides)):
-            found += _ratios(sides, islice(where, most))
+        for where in (points(claim), further(claim, sides.in_variables)):
+            found += [p for p in sides.pairs(islice(where, most)) if p.right != 0]
             try:
                 powers = powers or _powers(found, names)
-                reduced = [value / evaluated(powers, point) for point, value in found]
+                reduced = [each.ratio / evaluated(powers, each.point) for each in found]
             except (Undecided, ArithmeticError, ValueError):
                 return None
             tolerance = mpf(10) ** -_SHARED * abs(reduced[0])
@@ -81,28 +83,16 @@ def quotient(claim: Claim) -> Quotient | None:
         return Quotient(reduced[0], powers, len(reduced))
 
 
-def _ratios(sides: Sequence[Expr], where: Iterable[Point]) -> Iterator[tuple[Point, Value]]:
-    """Yield the ratio of the sides at those points where it is a real number."""
-    for point in where:
-        try:
-            left, right = (evaluated(side, point) for side in sides)
-        except Undecided:
-            continue
-        real = mpmath.im(left) == 0 and mpmath.im(right) == 0
-        if real and right != 0 and mpmath.isfinite(left / right):
-            yield point, left / right
-
-
-def _powers(found: list[tuple[Point, Value]], names: list[Symbol]) -> Expr:
+def _powers(found: list[Pair], names: list[Symbol]) -> Expr:
     """Return the product of powers that fits the first values; raises ValueError."""
-    is_constant = len({mpmath.nstr(value, _SHARED) for _, value in found}) == 1
+    is_constant = len({mpmath.nstr(each.ratio, _SHARED) for each in found}) == 1
     count = 1 if is_constant else len(names) + 1
     if len(found) < count + (_LEAST if names else 0):
         raise ValueError("too few points")
     if is_constant:
         return S.One
-    rows = [[1, *(mpmath.log(abs(point[name])) for name in names)] for point, _ in found[:count]]
-    logs = [mpmath.log(abs(value)) for _, value in found[:count]]
+    rows = [[1, *(mpmath.log(abs(each.point[n])) for n in names)] for each in found[:count]]
+    logs = [mpmath.log(abs(each.ratio)) for each in found[:count]]
     fitted = [Fraction(float(n)) for n in mpmath.lu_solve(mpmath.matrix(rows), logs)[1:]]
     near = [n.limit_denominator(_STEEPEST) for n in fitted]
     if any(abs(n) > _STEEPEST for n in near):
@@ -158,28 +148,21 @@ def telling(claim: Claim, some: Sequence[Point], others: Sequence[Point]) -> str
     """Return a condition that some points meet and others do not; empty if none is found."""
     if min(len(some), len(others)) < _EACH:
         return ""
-    for told, difference in _comparisons(claim):
-        values = [_value(claim, difference, point) for point in (*some, *others)]
-        met = [value is not None and value < 0 for value in values]
+    for told, condition in _comparisons(claim):
+        met = [is_met(condition, point) for point in (*some, *others)]
         if all(met[: len(some)]) and not any(met[len(some) :]):
             return told
     return ""
 
 
-def _comparisons(claim: Claim) -> Iterator[tuple[str, Expr]]:
-    """Yield simple conditions, each with the expression that is negative where it is true."""
+def _comparisons(claim: Claim) -> Iterator[tuple[str, Boolean]]:
+    """Yield simple conditions in words and in the variables."""
     names = list(dict.fromkeys((*claim.meant.swaps, *variables(claim))))
-    for name in names:
-        yield from ((f"{name} < 0", name), (f"{name} > 0", -name))
-    for one, other in permutations(names, 2):
-        if claim.meant.unit_of.get(one, "") == claim.meant.unit_of.get(other, ""):
-            yield f"{one} < {other}", one - other
-
-
-def _value(claim: Claim, expr: Expr, point: Point) -> mpf | None:
-    """Return the value of an expression if it is a real number."""
-    try:
-        value = evaluated(expr.xreplace(dict(claim.meant.meaning)), point)
-    except (Undecided, KeyError):
-        return None
-    return None if mpmath.im(value) != 0 else mpmath.re(value)
+    zero = [(f"{name} {sign} 0", made(name, 0)) for name in names for sign, made in _SIGNS]
+    alike = [
+        (f"{one} < {other}", Lt(one, other))
+        for one, other in permutations(names, 2)
+        if claim.meant.unit_of.get(one, "") == claim.meant.unit_of.get(other, "")
+    ]
+    table = dict(claim.meant.meaning)
+    yield from ((told, condition.xreplace(table)) for told, condition in zero + alike)

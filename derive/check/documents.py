@@ -16,7 +16,7 @@ from markupsafe import Markup, escape
 from derive.check import report
 from derive.check.claim import Paper, Verdict
 from derive.check.draw import along, has_integral, is_allowed
-from derive.check.judge import Sides
+from derive.check.sides import Sides
 from derive.check.verdict import Finding
 from derive.sheet.page import templates
 
@@ -104,7 +104,7 @@ def _curves(finding: Finding) -> Markup | str:
     claim, pairs = finding.claim, finding.judged.pairs
     if finding.verdict != Verdict.FAILS or not pairs or has_integral(claim):
         return ""
-    sides = Sides(claim, *claim.meant.compared, claim.meant.meaning).in_variables
+    sides = Sides.printed(claim).in_variables
     point = pairs[-1].point
     held = set().union(*(side.free_symbols for side in sides)) & set(point)
     for symbol in sorted(held, key=lambda s: (bool(s.is_positive), s.name)):

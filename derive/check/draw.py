@@ -71,26 +71,29 @@ _MANY, _FEW = _Numbers(8, 6, 16, 12, _DECADES), _Numbers(3, 2, 2, 4, 2)
 # ------------------------------------------------------------------ variables and conditions
 
 
+def _meanings(claim: Claim) -> list[Expr]:
+    """Return the meanings of the symbols in both sides."""
+    held = set().union(*(side.free_symbols for side in claim.meant.compared))
+    return [claim.meant.meaning.get(symbol, symbol) for symbol in held]
+
+
+def _integrals(claim: Claim) -> set[Integral]:
+    exprs = (*claim.meant.compared, *_meanings(claim))
+    return set().union(*(expr.atoms(Integral) for expr in exprs))
+
+
 def has_integral(claim: Claim) -> bool:
     """Whether a side, or the meaning of one of its symbols, contains an integral."""
-    sides = claim.meant.compared
-    held = set().union(*(side.free_symbols for side in sides))
-    meanings = [expr for symbol, expr in claim.meant.meaning.items() if symbol in held]
-    return any(expr.has(Integral) for expr in (*sides, *meanings))
+    return bool(_integrals(claim))
 
 
 def variables(claim: Claim) -> list[Symbol]:
     """Return the variables that need a value at every point."""
-    sides = claim.meant.compared
-    held = set().union(*(side.free_symbols for side in sides))
-    meanings = [claim.meant.meaning.get(symbol, symbol) for symbol in held]
-    exprs = (*meanings, *claim.meant.conditions, *(claim.meant.toward or ()))
-    symbols = set(claim.meant.ranges).union(*(expr.free_symbols for expr in exprs))
-    integrals = {
-        i for expr in (*sides, *claim.meant.meaning.values()) for i in expr.atoms(Integral)
-    }
-    bound = {limit[0] for each in integrals for limit in each.limits} - set(claim.meant.ranges)
-    return sorted(symbols - bound, key=in_order)
+    ranges = set(claim.meant.ranges)
+    exprs = (*_meanings(claim), *claim.meant.conditions, *(claim.meant.toward or ()))
+    bound = {limit[0] for over in _integrals(claim) for limit in over.limits}
+    symbols = set().union(*(expr.free_symbols for expr in exprs)) - bound
+    return sorted(ranges | symbols, key=in_order)
 
 
 def ranges_of(claim: Claim) -> dict[Symbol, Range]:
@@ -105,16 +108,16 @@ def in_order(symbol: Symbol) -> tuple[str, str]:
 
 def is_allowed(claim: Claim, point: Point) -> bool:
     """Whether a point meets the conditions of a claim."""
-    try:
-        return all(is_met(each, point) for each in claim.meant.conditions)
-    except (ArithmeticError, TypeError, ValueError):  # undefined, or not real
-        return False
+    return all(is_met(each, point) for each in claim.meant.conditions)
 
 
 def is_met(condition: Boolean, point: Point) -> bool:
-    """Whether a condition is true at a point."""
+    """Whether a condition is true at a point, and not undefined there."""
     met, held = _compiled(condition, "mpmath")
-    return bool(met(*(point[symbol] for symbol in held)))
+    try:
+        return bool(met(*(point[symbol] for symbol in held)))
+    except (ArithmeticError, KeyError, TypeError, ValueError):
+        return False
 
 
 @cache

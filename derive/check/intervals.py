@@ -60,14 +60,29 @@ def decide(
     conditions: Iterable[Boolean],
     look: LookAtClock,
 ) -> Decision:
-    """Decide whether `gap` is positive, or at least zero, wherever the conditions are met."""
+    """Decide whether `gap` is positive, or at least zero, wherever the conditions are met.
+
+    At first the lowest of all boxes is examined, and then the lowest part of the one before, until
+    all are decided, one is false, or there are too many.
+    """
     given = [each for condition in conditions for each in sp.And.make_args(condition)]
     gap = unsettled(gap, is_strict, ranges, given)
-    if gap == 1:
-        return Decision(True, {})
-    held = gap.free_symbols.union(*(each.free_symbols for each in given))
+    held = gap.free_symbols.union(*(each.free_symbols for each in given)) if gap != 1 else set()
     over = {symbol: span for symbol, span in ranges.items() if symbol in held}
-    return _Search(gap, is_strict, over, given, look).decision()
+    if gap == 1 or gap.has(sp.Integral):
+        return Decision(gap == 1 or None, over)
+    search = _Search(gap, is_strict, given, {symbol: ends(span) for symbol, span in over.items()})
+    for number in range(_MOST_BOXES):
+        look()
+        search.dives = number > _MOST_BOXES / 2
+        with digits(_DIGITS):
+            false = search.false_in_next()
+        if false is not None:
+            return Decision(False, over, false)
+        if not search.boxes:
+            break
+    near = search.near()
+    return Decision(None if search.boxes or near else True, over, near)
 
 
 def gap_of(left: Expr, relation: Relation, right: Expr) -> Expr:
@@ -119,38 +134,18 @@ class _Search:
     """The boxes of one inequality that are not decided yet."""
 
     def __init__(
-        self,
-        gap: Expr,
-        is_strict: bool,
-        ranges: Mapping[Symbol, Range],
-        conditions: Sequence[Boolean],
-        look: LookAtClock,
+        self, gap: Expr, is_strict: bool, conditions: Sequence[Boolean], whole: Box
     ) -> None:
-        self.gap, self.is_strict, self.conditions, self.look = gap, is_strict, conditions, look
-        self.ranges = ranges
-        self.rates = {} if gap.has(*_JUMPS) else {s: gap.diff(s) for s in ranges}
+        self.gap, self.is_strict, self.conditions = gap, is_strict, conditions
+        self.rates = {} if gap.has(*_JUMPS) else {symbol: gap.diff(symbol) for symbol in whole}
         self.number, self.dives, self.touches = count(), False, dict[Symbol, Fraction]()
         self.boxes = list[tuple[int, float, int, int, Box]]()
-        self._add(-inf, 0, {symbol: ends(span) for symbol, span in ranges.items()})
+        self._add(-inf, 0, whole)
 
-    def decision(self) -> Decision:
-        """Examine boxes until all are decided, one is false, or there are too many.
-
-        At first the lowest of all boxes is taken, and then the lowest part of the one before.
-        """
-        for number in range(_MOST_BOXES):
-            self.look()
-            self.dives = number > _MOST_BOXES / 2
-            *_, depth, _, box = heappop(self.boxes)
-            with digits(_DIGITS):
-                found = self._examined(box, -depth)
-            if found is not None:
-                return found
-            if not self.boxes:
-                break
+    def near(self) -> dict[Symbol, Fraction]:
+        """A point near which nothing is shown; empty if there is none."""
         inside = (_middle(box) for *_, box in sorted(self.boxes) if all(self._met(box)))
-        near = self.touches or next(inside, {})
-        return Decision(None if self.boxes or near else True, self.ranges, near)
+        return self.touches or next(inside, {})
 
     def _add(self, lowest: float, depth: int, box: Box) -> None:
         first = -depth if self.dives else 0
@@ -161,8 +156,9 @@ class _Search:
         balls = {symbol: _hull(*map(_exact, span)) for symbol, span in box.items()}
         return [enclosed(each, balls) for each in self.conditions]
 
-    def _examined(self, box: Box, depth: int) -> Decision | None:
-        """Decide a box, reduce it or divide it; return a decision if its middle is false."""
+    def false_in_next(self) -> dict[Symbol, Fraction] | None:
+        """Decide, reduce or divide the next box; return its middle if the inequality is false."""
+        *_, depth, _, box = heappop(self.boxes)
         balls, middle = {s: _hull(*map(_exact, of)) for s, of in box.items()}, _middle(box)
         met = self._met(box)
         if False in met:
@@ -174,7 +170,7 @@ class _Search:
         here = _at(self.gap, at_middle)
         is_inside = all(enclosed(each, at_middle) for each in self.conditions)
         if is_inside and isinstance(here, arb) and here < 0:
-            return Decision(False, self.ranges, middle)
+            return middle
         slopes = {symbol: enclosed(rate, balls) for symbol, rate in self.rates.items()}
         lowest = float(value.real.lower()) if value.is_finite() else -inf
         known = [here, *slopes.values()]
@@ -184,9 +180,9 @@ class _Search:
                 return None
             reduced = {s: _face(box[s], slopes[s]) for s in box}
             if reduced != box and all(met):
-                self._add(lowest, depth, reduced)
+                self._add(lowest, -depth, reduced)
                 return None
-        self._divide(box, middle, lowest, depth)
+        self._divide(box, middle, lowest, -depth)
         return None
 
     def _divide(self, box: Box, middle: dict[Symbol, Fraction], lowest: float, depth: int) -> None:

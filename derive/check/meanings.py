@@ -77,7 +77,7 @@ Delta_[sigma]; 4*f*E_star*(tilt(edges) - tilt(stick)); Pa; range of the bulk ten
 true.  A letter without a formula is a variable.  Parts in brackets follow the paper's letters: if a
 is l, d[P]_d[a] is dP_dl.  `left` and `right`, or both as `edges`, are the ends of the contact, and
 likewise those of the stick zone.  `stick_pressure` is that of the stick zone, zero beside it."""
-_RANGES = {"nu": (0, 0.5), "kappa": (1, 3)}
+_RANGES = {"nu": (0.0, 0.5), "kappa": (1.0, 3.0)}
 _STICK = {"even": ("m", "m"), "uneven": ("m", "n"), "eccentric": ("d - e", "d + e")}
 _ENDS = {"even": "its half-width alone", "uneven": "its two ends", "eccentric": "d and e"}
 _CONSTANTS = {"E", "mu"}

@@ -12,8 +12,8 @@ only a number of extreme size could still change the result; with such a number 
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
-from enum import IntEnum
 from functools import cached_property
 from math import ceil
 
@@ -24,7 +24,7 @@ from sympy import Expr, Function, Integral, Piecewise, Symbol, oo
 
 from derive.check.claim import SCALE, SIGNED, Claim, Point, Verdict
 from derive.check.draw import in_order, is_allowed, points, zeros
-from derive.check.numbers import has_extremes
+from derive.check.sides import Sides, has_extremes
 from derive.command.limit import LookAtClock
 from derive.proof.balls import FUNCTIONS, Value
 from derive.proof.values import Undecided, evaluated
@@ -60,20 +60,6 @@ _NOISE = mpf(10) ** -40
 """Relative changes below this one are due to rounding."""
 
 
-class Kind(IntEnum):
-    """Where a variable moves, in the order of preference.
-
-    If c = kappa*a, c -> a means kappa -> 1 and not a -> 0.
-    """
-
-    INSIDE = 0
-    """To a value in its declared range, if it has one."""
-    OUTSIDE = 1
-    """To another value, which is not zero if the variable is positive."""
-    EXTREME = 2
-    """To infinity, or to zero if the variable is positive."""
-
-
 @dataclass(frozen=True)
 class Row:
     """The points on the way to a limit from one point, each with the gap that is left."""
@@ -84,65 +70,74 @@ class Row:
 
 @dataclass(frozen=True)
 class Way:
-    """One variable that moves to places of one kind, and the points on the way there.
+    """One variable that moves to a place, and the points on the way there from several points.
 
-    place: which of these places is meant, if there are several
+    place       which of its places is meant
+    is_extreme  whether the place is infinity, or zero for a positive variable
     """
 
     variable: Symbol
-    kind: Kind
     place: str
+    is_extreme: bool
     rows: list[Row]
+
+    @property
+    def preference(self) -> tuple[bool, bool]:
+        """A sort key: if c = kappa*a, c -> a means kappa -> 1 and not a -> 0."""
+        return self.is_extreme, bool(self.variable.is_positive)
+
+    def __str__(self) -> str:
+        """Which variable moves where, and which ones stay."""
+        ends = {self.place}
+        if not self.is_extreme:
+            last = [row.points[-1][self.variable] for row in self.rows]
+            ends = {mpmath.nstr(each if abs(each) > _NEAR else 0, 6) for each in last}
+        where = f" to {ends.pop()}" if len(ends) == 1 else ""
+        stay = [s.name for s in sorted(self.rows[0].points[0], key=in_order) if s != self.variable]
+        return f"{self.variable} moves{where}" + (f" and {', '.join(stay)} stay" if stay else "")
 
 
 class Approach:
     """The ways in which the expression of a claim tends to its end."""
 
-    def __init__(self, claim: Claim, toward: tuple[Expr, Expr]) -> None:
-        self.claim, (self.expr, self.end) = claim, toward
-        sides = [side.xreplace(dict(claim.meant.meaning)) for side in claim.meant.compared]
-        decades = _DECADES if all(map(_is_quick, (self.expr, *sides))) else _WITH_INTEGRALS
+    def __init__(self, claim: Claim) -> None:
+        assert claim.meant.toward is not None
+        self.claim, (expr, self.end) = claim, claim.meant.toward
+        sides = Sides.printed(claim).in_variables
+        decades = _DECADES if all(map(_is_quick, (expr, *sides))) else _WITH_INTEGRALS
         self.steps = [mpf(10) ** -each for each in decades]
         self.digits = _DIGITS + ceil(decades[-1] * max(2, (claim.meant.order or 0) + 1))
-        infinite = self.end in (oo, -oo)
-        self.gap = 1 / self.expr if infinite else self.expr - self.end
-        self.sign = 0 if not infinite else 1 if self.end == oo else -1
+        self.gap = 1 / expr if self.end in (oo, -oo) else expr - self.end
         self.variables = sorted(self.gap.free_symbols, key=in_order)
 
-    def judged(self, sides: tuple[Expr, Expr], look: LookAtClock) -> tuple[Verdict, str]:
-        """Return the verdict on two sides in terms of the variables, and the reason for it."""
+    def judged(self, asked: Sides, look: LookAtClock) -> tuple[Verdict, str]:
+        """Return the verdict on two sides, and the reason for it; raises Undecided."""
+        sides = asked.in_variables
         if any(has_extremes(side, self._bases[0]) for side in sides if self._bases):
             why = "a part is so large or small that it may matter only still nearer to the limit"
             return Verdict.UNCHECKED, why
-        results = list[tuple[Way, tuple[Verdict, str]]]()
-        for way in self.ways:
-            if (found := self._along(way, sides, look)) is not None:
-                results.append((way, found))
+        if not self._ways:
+            why = f"no variable of the expression that tends to {self.end} could be moved there"
+            return Verdict.UNCHECKED, f"{why}: name the variable that moves, as in x -> 0"
+        best = min(way.preference for way in self._ways)
+        ways = [way for way in self._ways if way.preference == best]
+        results = [(way, found) for way in ways if (found := self._along(way, sides, look))]
         if not results:
             why = (
                 "too few points were found from which both sides stay real up to the limit: "
                 "restrict the variables with `low`, `high` and `require`"
             )
             return Verdict.UNCHECKED, why
-        stuck = [each.name for each in self.variables if each not in self._places]
-        if stuck and all(way.kind == Kind.EXTREME for way, _ in results):
+        moving = {way.variable for way in self._ways}
+        stuck = [each.name for each in self.variables if each not in moving]
+        if stuck and all(way.is_extreme for way, _ in results):
             why = f"it is not known where {', '.join(stuck)} would have to move"
             return Verdict.UNCHECKED, f"{why}: name the variable that moves, as in x -> 0"
-        told = [f"if {self._moves(way)}, {why}" for way, (_, why) in results]
+        told = [f"if {way}, {why}" for way, (_, why) in results]
         if len({verdict for _, (verdict, _) in results}) == 1:
             return results[0][1][0], "; ".join(told)
         why = f"`as` does not say which variable moves: {'; '.join(told)}"
         return Verdict.UNCHECKED, f"{why}; name this variable, as in x -> 0"
-
-    def _moves(self, way: Way) -> str:
-        """Describe which variable moves where, and which ones stay."""
-        ends = {way.place}
-        if way.kind != Kind.EXTREME:
-            last = [row.points[-1][way.variable] for row in way.rows]
-            ends = {mpmath.nstr(each if abs(each) > _NEAR else 0, 6) for each in last}
-        where = f" to {ends.pop()}" if len(ends) == 1 else ""
-        stay = [s.name for s in sorted(way.rows[0].points[0], key=in_order) if s != way.variable]
-        return f"{way.variable} moves{where}" + (f" and {', '.join(stay)} stay" if stay else "")
 
     # -------------------------------------------------------------- places
 
@@ -151,39 +146,22 @@ class Approach:
         return list(points(self.claim, _MOST_BASES, "limit"))
 
     @cached_property
-    def _places(self) -> dict[Symbol, list[Way]]:
-        """The ways of each variable that can move to a place at which the gap vanishes."""
-        found = {variable: self._ways(variable) for variable in self.variables}
-        return {variable: ways for variable, ways in found.items() if ways}
+    def _ways(self) -> list[Way]:
+        """All ways along each variable, with rows from the first suitable points."""
+        return [way for variable in self.variables for way in self._ways_of(variable)]
 
-    @cached_property
-    def ways(self) -> list[Way]:
-        """The ways of the most preferred kind; a variable that may be negative comes first."""
-        if not self._places:
-            why = f"no variable of the expression that tends to {self.end} could be moved there"
-            raise Undecided(f"{why}: name the variable that moves, as in x -> 0")
-        ways = [way for each in self._places.values() for way in each]
-
-        def rank(way: Way) -> tuple[bool, bool, int]:
-            is_extreme = way.kind == Kind.EXTREME
-            return is_extreme, bool(way.variable.is_positive), way.kind
-
-        best = min(map(rank, ways))
-        return [way for way in ways if rank(way) == best]
-
-    def _ways(self, variable: Symbol) -> list[Way]:
-        """Return all ways along a variable, with rows from the first suitable points."""
-        rows: dict[tuple[Kind, str], list[Row]] = {}
+    def _ways_of(self, variable: Symbol) -> list[Way]:
+        rows: dict[tuple[str, bool], list[Row]] = {}
         for number, base in enumerate(self._bases):
             if number >= _BASES and all(len(each) >= _ROWS for each in rows.values()):
                 break
             with mpmath.workdps(2 * self.digits):
-                for kind, place, moves in self._moved(variable, base):
+                for place, is_extreme, moves in self._moved(variable, base):
                     if row := self._row(variable, moves, base):
-                        rows.setdefault((kind, place), []).append(row)
-        return [Way(variable, kind, place, each) for (kind, place), each in rows.items()]
+                        rows.setdefault((place, is_extreme), []).append(row)
+        return [Way(variable, *key, each) for key, each in rows.items()]
 
-    def _moved(self, variable: Symbol, base: Point) -> Iterator[tuple[Kind, str, list[mpf]]]:
+    def _moved(self, variable: Symbol, base: Point) -> Iterator[tuple[str, bool, list[mpf]]]:
         """Yield the values of a variable on the way to each place where the gap may vanish."""
         span = self.claim.meant.ranges.get(variable, SIGNED)
         # the distances differ from point to point, so that what oscillates is seen to do so
@@ -192,19 +170,18 @@ class Approach:
         for number, place in enumerate(self._zeros(variable, base)):
             if any(abs(place - end) <= _SAME * max(1, abs(end)) for end in ends):
                 continue  # it is approached from inside the range
-            kind = Kind.INSIDE if not ends or ends[0] < place < ends[1] else Kind.OUTSIDE
             size = abs(place) if abs(place) > _SAME else mpf(1)
             for sign in (1, -1):
-                yield kind, f"zero {number}", [place + sign * size * step for step in steps]
+                yield f"zero {number}", False, [place + sign * size * step for step in steps]
         for end, sign in zip(ends, (1, -1), strict=False):
             if end != 0 or not variable.is_positive:
                 length = ends[1] - ends[0]
-                yield Kind.INSIDE, str(end), [end + sign * length * step for step in steps]
-        yield Kind.EXTREME, "infinity", [1 / step for step in steps]
+                yield str(end), False, [end + sign * length * step for step in steps]
+        yield "infinity", True, [1 / step for step in steps]
         if variable.is_positive:
-            yield Kind.EXTREME, "0", steps
+            yield "0", True, steps
         else:
-            yield Kind.EXTREME, "-infinity", [-1 / step for step in steps]
+            yield "-infinity", True, [-1 / step for step in steps]
 
     def _zeros(self, variable: Symbol, base: Point) -> list[mpf]:
         """Return the values of a variable at which the gap is zero, or stationary."""
@@ -228,9 +205,10 @@ class Approach:
                 gaps = [evaluated(self.gap, point) for point in way]
             except Undecided:
                 return None
-            if any(mpmath.im(gap) != 0 or gap == 0 or gap * self.sign < 0 for gap in gaps):
+            sign = {oo: 1, -oo: -1}.get(self.end, 0)
+            if any(mpmath.im(gap) != 0 or gap == 0 or gap * sign < 0 for gap in gaps):
                 return None
-            is_vanishing = _order([abs(step) for step in gaps], self.steps) > _SLOWEST
+            is_vanishing = _order(gaps, self.steps) > _SLOWEST
             return Row(way, [abs(gap) for gap in gaps]) if is_vanishing else None
 
     # -------------------------------------------------------------- verdicts
@@ -242,15 +220,11 @@ class Approach:
         found: dict[bool, list[tuple[Verdict, str]]] = {}
         for row in way.rows:
             look()
-            with mpmath.workdps(self.digits):
-                try:
-                    both = [[evaluated(side, point) for point in row.points] for side in sides]
-                except Undecided:
-                    continue
-                if not any(mpmath.im(value) != 0 for values in both for value in values):
+            with mpmath.workdps(self.digits), suppress(Undecided):
+                left, right = ([evaluated(side, at) for at in row.points] for side in sides)
+                if not any(mpmath.im(value) != 0 for value in (*left, *right)):
                     first, last = (row.points[n][way.variable] for n in (0, -1))
-                    judged = self._of(both[0], both[1], row.gaps)
-                    found.setdefault(bool(first > last), []).append(judged)
+                    found.setdefault(bool(first > last), []).append(self._of(left, right, row.gaps))
         count = sum(map(len, found.values()))
         if count < _BASES:
             return None

@@ -15,8 +15,9 @@ from derive.check.basis import basis, is_empty
 from derive.check.claim import Basis, Claim, Verdict
 from derive.check.correction import Repair, repaired
 from derive.check.diagnosis import diagnosis, where_true
-from derive.check.judge import Judged, Judging, Sides, judge, judge_as_printed, no_clock
+from derive.check.judge import Judged, Judging, judge, judge_as_printed, no_clock
 from derive.check.schema import Reinterpretation
+from derive.check.sides import Sides
 from derive.command.limit import LimitReached, LookAtClock, within
 
 Result = TypeVar("Result")
@@ -154,19 +155,23 @@ def _checked(claim: Claim, given: tuple[Finding, ...]) -> Finding:
     """
     if claim.unchecked:
         return Finding(claim, Judged(Verdict.UNCHECKED, claim.unchecked))
-    found, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
-    judged = found or Judged(Verdict.UNCHECKED, stopped)
+    finding = Finding(claim, _judged(claim), given=given)
+    real = finding.judged.one_side_real
     if claim.meant.alone is not None:
-        return _step(Finding(claim, judged, given=given), claim.meant.alone)
-    if judged.verdict == Verdict.FAILS:
-        return replace(_explained(_mended(claim, judged)), given=given)
-    if judged.one_side_real:
-        real = judged.one_side_real
+        return _step(finding, claim.meant.alone)
+    if finding.judged.verdict == Verdict.FAILS:
+        return _explained(_mended(finding))
+    if real:
         why = f"one side is real at all {real} points, but the other is real at none of them"
-        finding = _mended(claim, Judged(Verdict.FAILS, why))
-        if finding.repair is not None or finding.convention is not None:
-            return replace(finding, given=given)
-    return Finding(claim, judged, given=given)
+        mended = _mended(replace(finding, judged=Judged(Verdict.FAILS, why)))
+        if mended.repair is not None or mended.convention is not None:
+            return mended
+    return finding
+
+
+def _judged(claim: Claim) -> Judged:
+    found, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
+    return found or Judged(Verdict.UNCHECKED, stopped)
 
 
 def _step(finding: Finding, alone: Claim) -> Finding:
@@ -175,50 +180,47 @@ def _step(finding: Finding, alone: Claim) -> Finding:
     A claim that is true without them, but does not follow, is `unchecked`.  If one of those given
     fails, a false claim is corrected without them, and not at all if it cannot be judged so.
     """
-    found, _ = _attempted(alone, lambda look: judge_as_printed(alone, look))
-    if found is not None and found.verdict != Verdict.UNCHECKED:
+    found = _judged(alone)
+    if found.verdict != Verdict.UNCHECKED:
         finding = replace(finding, alone=found)
     if finding.verdict != Verdict.FAILS:
         return finding
     if finding._is_true_alone:
         why = "true by the meanings of the file, but not with those that are given"
         return replace(finding, judged=replace(finding.judged, verdict=Verdict.UNCHECKED, why=why))
-    source = finding.claim if finding.unsound != Verdict.FAILS else alone if finding.alone else None
-    if source is None:
+    if finding.unsound != Verdict.FAILS:
+        return _explained(_mended(finding))
+    if finding.alone is None:
         return finding
-    mended = _explained(_mended(source, finding.judged))
-    return replace(mended, claim=finding.claim, given=finding.given, alone=finding.alone)
+    return replace(_explained(_mended(replace(finding, claim=alone))), claim=finding.claim)
 
 
-def _mended(claim: Claim, judged: Judged) -> Finding:
-    """Return the finding for a false claim, with a correction and a convention if they exist."""
+def _mended(finding: Finding) -> Finding:
+    """Add a correction of a false claim, and a convention under which it is true, if they exist."""
+    claim = finding.claim
 
     def search(look: LookAtClock) -> Finding:
         repair, tried = repaired(claim, look)
-        failed = Finding(claim, judged, repair=repair, tried=tried)
+        failed = replace(finding, repair=repair, tried=tried)
         for convention, changed in claim.meant.conventions:
             meaning = {**claim.meant.meaning, **changed}
-            under = judge(claim, claim.meant.left, claim.meant.right, meaning, look)
+            under = judge(replace(Sides.printed(claim), meaning=meaning, known={}), look)
             if under.good:
                 return replace(failed, convention=convention, under=under)
         return failed
 
-    finding, stopped = _attempted(claim, search)
-    return finding or Finding(claim, judged, stopped=stopped)
+    found, stopped = _attempted(claim, search)
+    return found or replace(finding, stopped=stopped)
 
 
 def _explained(finding: Finding) -> Finding:
     """Add where a false claim is true and, if it was not corrected, how its sides differ."""
-    claim = finding.claim
-
-    def partly(look: LookAtClock) -> str:
-        sides = Sides(claim, *claim.meant.compared, claim.meant.meaning)
-        return where_true(claim, Judging(sides, look).is_true)
-
+    claim, sides = finding.claim, Sides.printed(finding.claim)
     if claim.meant.toward is None and claim.meant.reached is None:
-        finding = replace(finding, partly=_attempted(claim, partly)[0] or "")
+        partly, _ = _attempted(claim, lambda look: where_true(claim, Judging(sides, look).is_true))
+        finding = replace(finding, partly=partly or "")
     if finding.repair is None and finding.convention is None:
-        difference, _ = _attempted(claim, lambda look: diagnosis(claim))
+        difference, _ = _attempted(claim, lambda look: diagnosis(sides))
         finding = replace(finding, diagnosis=difference or "")
     return finding
 

@@ -3,7 +3,7 @@
     module     input                        output
     --------   --------------------------   -------------------------------------------------
     words                                   the functions that may be called
-    text       text                         its tree by text.lark, or a refusal with its place
+    text       text, equation or limit      its tree by text.lark, or a refusal with its place
     limits     SymPy expression             whether it is too large, not finite or not real
     value      tree                         a SymPy expression within these limits
     profile    g(x) as text                 its expression, with a symbol for each parameter
@@ -14,7 +14,8 @@
                                             the term of an equation whose units do not fit;
                                             the unit of each parameter, because g is a length
     displays   LaTeX file                   its title, and its displays, numbered as LaTeX does
-    lexer      LaTeX                        tokens: the only place that knows how things are spelled
+    lexer      LaTeX                        tokens, each with its depth in brackets: the only place
+                                            that knows how things are spelled
     statements tokens of a display          its equations, each with its condition
     substitution                            the angle that an equation introduces
     spellings  tokens                       the symbols, each with a name

@@ -102,7 +102,7 @@ _WORDS = {
     "": "which|that|since",
 }
 _KINDS = {word: kinds.split() for kinds, words in _WORDS.items() for word in words.split("|")}
-CLAUSES = frozenset(word.split()[0] for word in _KINDS)
+CLAUSES = frozenset(word.split()[0] for word, kinds in _KINDS.items() if "ELSE" not in kinds)
 """Words that start a clause."""
 _ENVIRONMENTS = {
     **dict.fromkeys(("split", "aligned", "gathered", "alignedat"), "LINES"),
@@ -349,7 +349,7 @@ def _nested(tokens: list[Token]) -> list[Token]:
         if kind in _CLOSING:
             opened.append(token)
             depth, cases = depth + is_shown, cases + (kind == "BEGIN")
-        if depth > _DEEPEST:
+        if depth >= _DEEPEST:
             raise Unclear(token.at, "brackets are nested too deeply", "use fewer brackets")
     if opened:
         raise _unclosed(opened[-1])

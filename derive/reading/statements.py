@@ -139,8 +139,9 @@ _CODES = {
     **dict.fromkeys((*_JOINTS, "COMMA", ";", "AND"), ","),
     **{"TEXT": "w", "LINE": "/", "ROW": "/", "GAP": " ", "&": " ", "COL": " "},
 }
-_BREAKS = [kind for kind, code in _CODES.items() if code in "/ "]
 """A character for each token outside brackets; it is x for all others."""
+_BREAKS = [kind for kind, code in _CODES.items() if code in "/ "]
+"""Rows, columns and wide spaces."""
 _BEGINS = r" *[^ ,/w=>+][^,/w]*[=>]"
 """The codes of a formula with a left side of its own."""
 _DIVIDES = re.compile(rf"/(?=[w ]*{_BEGINS})|(?<=[^=>+ ]) (?={_BEGINS})")

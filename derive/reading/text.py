@@ -63,7 +63,9 @@ _OPERANDS = _NAMES | {"NUMBER", "RPAR"}
 """Terminals after which no operand may follow."""
 _OPERANDS_BEGIN = _NAMES | {"NUMBER", "LPAR", "FUNCTION"}
 _RELATIONS = frozenset(("ORDER", "EQUAL", "NOT", "ARROW"))
+"""Terminals that may stand between the two sides of an equation or a limit."""
 _ONE = "write exactly one, as in left = right or x -> 0"
+"""The remedy for a text with no relation, or with two."""
 _AROUND = frozenset(("LPAR", "PREFIX", "NOT", "POWER"))
 """Terminals that nest what follows."""
 

@@ -11,6 +11,7 @@ from derive.check.correction import swaps_on_right
 from derive.check.draw import has_integral
 from derive.check.judge import Judged, judge
 from derive.check.repair import Edit, edits, swappable
+from derive.check.sides import Sides
 
 FEWEST = 5
 """Ways in which a claim is broken at least."""
@@ -29,9 +30,7 @@ class Mutant:
     @property
     def judged(self) -> Judged:
         """What the checker says of it; none of the claim's conventions is tried."""
-        return judge(
-            self.claim, self.claim.meant.left, self.claim.meant.right, self.claim.meant.meaning
-        )
+        return judge(Sides.printed(self.claim))
 
 
 def mutants(claim: Claim) -> Iterator[Mutant]:
