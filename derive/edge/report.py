@@ -3,6 +3,7 @@
 import csv
 import io
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from math import floor, isfinite, log10
 
 import numpy as np
@@ -111,19 +112,17 @@ CSV_HEAD = "load_step,side,"
 
 def as_csv(findings: Findings) -> str:
     """Return one row for each load step and edge in SI units; the last step has slip zones."""
+    names = ["load_step", "side", "edge", "K_N", "L_N", "edge_error", "K_N_error", "L_N_error"]
+    names += ["nodes", "stretch"]
+    names += ["K_T", "K_T_error", "da", "d", "error", "series", "order", "part"]
     out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    names = ["edge", "K_N", "L_N", "edge_error", "K_N_error", "L_N_error", "nodes", "stretch"]
-    of_shear, of_zone = ["K_T", "K_T_error"], ["d", "error", "series", "order", "part"]
-    writer.writerow(["load_step", "side", *names, *of_shear, "da", *of_zone])
+    writer = csv.DictWriter(out, names, extrasaction="ignore", lineterminator="\n")
+    writer.writeheader()
     for e in findings.edges:
-        row = [repr(getattr(e.pressure, name)) for name in names]
-        if e.zone:
-            row += [repr(getattr(e.shear, name)) for name in of_shear]
-            row += [repr(e.da), *(repr(getattr(e.zone, name)) for name in of_zone)]
-        else:
-            row += [""] * (len(of_shear) + 1 + len(of_zone))
-        writer.writerow([_inert(e.step), e.side, *row])
+        row = {"load_step": _inert(e.step), "side": e.side, **e.pressure._asdict()}
+        if e.shear and e.zone:
+            row = e.shear._asdict() | {"da": e.da} | asdict(e.zone) | row
+        writer.writerow(row)
     return out.getvalue()
 
 

@@ -18,14 +18,21 @@ SHORT = 1e-3
 does not belong to this f p."""
 
 
-def demand_contact(name: str, state: Any) -> None:
-    """Demand a single Contact with finite edges."""
-    a, c = (getattr(state, edge, np.nan) for edge in ("a", "c"))
-    if np.broadcast(a, c).shape or not np.isfinite(a + c):
-        raise ValueError(
-            f"{name} is {state!r:.100}, not a single Contact with finite edges; give one result of "
-            "`contact`"
-        )
+def demand_contact(name: str, state: Any, body: Any, law: dict[str, float]) -> None:
+    """Demand a single Contact whose edges and tilt agree with this body and its parameters."""
+    own = {key: value for key, value in law.items() if key not in ("E_star", "f")}
+    a, c, stated = (getattr(state, field, np.nan) for field in ("a", "c", "alpha"))
+    why = "not a single Contact with finite edges"
+    if np.broadcast(a, c, stated).shape == () and np.isfinite(a + c):
+        tilt = float(body.tilt(a, c, **own))
+        is_stated = np.isfinite(stated) and stated != 0
+        if np.isfinite(tilt) and (not is_stated or np.isclose(tilt, stated, ROUNDING, 0)):
+            return
+        why = f"not in contact at its tilt of {stated:g} rad, because its edges require {tilt:g}"
+    raise ValueError(
+        f"{name} is {state!r:.100}, {why}; give one result of `contact` of "
+        f"{body.__name__.rpartition('.')[2]} for the same constants"
+    )
 
 
 def zone_of(
@@ -35,6 +42,8 @@ def zone_of(
     zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
     if np.ndim(zone.regime) or zone.regime == NONE:
         raise ValueError(body.why(first, second, dQ, dsigma, **law))
+    for name, state in (("first", first), ("second", second)):
+        demand_contact(name, state, body, law)
     return zone
 
 

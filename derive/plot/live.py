@@ -6,7 +6,6 @@ from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from derive.command.errors import MissingLibrary
@@ -84,7 +83,7 @@ class _Picture:
             line = self._in_words(state, dQ, dsigma, law)
         target = BytesIO()
         with style():
-            FigureCanvasAgg(self.figure).print_png(target)  # type: ignore[no-untyped-call]
+            self.figure.savefig(target, format="png")
         return target.getvalue(), line
 
     def _in_words(self, state: Any, dQ: float, dsigma: float, law: dict[str, float]) -> str:

@@ -75,7 +75,7 @@ def pressures(
     demand_labels(labels, len(states), "states")
     lines = []
     for i, state in enumerate(states):
-        demand_contact(f"states[{i}]", state)
+        demand_contact(f"states[{i}]", state, body, constants)
         x = places(-float(state.a), float(state.c))
         lines.append((x, body.pressure(x, state.a, state.c, **constants)))
     length = length or unit([x for x, _ in lines], "m")
@@ -309,7 +309,7 @@ def slip(
     slipped = body.slip_range(x, first, second, dQ, dsigma, **law)
     p1, p2 = (body.pressure(x, s.a, s.c, **constants) for s in (first, second))
     mean = np.where(slipped == 0, 0.0, (p1 + p2) / 2)
-    work = f * np.where(mean == np.inf, np.nan, mean) * slipped
+    work = f * mean * slipped
     length, depth, joule = length or unit(x, "m"), unit(slipped, "m"), unit(work, "J/m²")
     with canvas(axes, 2, size=(5.6, 4.6)) as axes:
         axes[0].plot(length(x), depth(slipped), color=COLOURS["blue"])

@@ -174,10 +174,9 @@ def slip_map(
     """
     x, at = positions_of(history, x), times(time, np.arange(np.size(history.a), dtype=float))
     length = length or unit(np.append(history.a, history.c), "m")
-    kinds = kinds_of_slip(history)
     touching = np.isfinite(history.a)
     unknown = touching & ~np.any(np.isfinite(history.slip), axis=1)
-    kinds = np.ma.masked_array(kinds, np.isnan(kinds) | ~touching[1:, None])
+    kinds = np.where(touching[1:, None], kinds_of_slip(history), np.nan)
     edges = np.concatenate([[x[0]], (x[1:] + x[:-1]) / 2, [x[-1]]])
     low, high = -length(history.a), length(history.c)
     least, greatest = float(np.nanmin(low)), float(np.nanmax(high))
@@ -189,7 +188,7 @@ def slip_map(
         for edge, beyond in ((low, least - margin), (high, greatest + margin)):
             axes.fill_between(at, edge, beyond, color="white", linewidth=0, zorder=0.6)
         for name, sense in (("stick", 0), ("forward slip", 1), ("reverse slip", -1)):
-            if np.any(kinds.compressed() == sense):
+            if np.any(kinds == sense):
                 axes.fill_between([], [], [], label=name, **AREAS[name])
         if np.any(unknown):
             look = {"where": binary_dilation(unknown), "label": "not known", **AREAS["not known"]}
@@ -286,13 +285,6 @@ def key(axes: Axes) -> None:
         )
 
 
-def _broken(at: Array, values: Array, sense: tuple[Array, Array]) -> tuple[Array, Array]:
-    """A line with a gap wherever the direction of slip changes."""
-    changes = [np.flatnonzero(np.diff(np.atleast_1d(of_edge)) != 0) + 1 for of_edge in sense]
-    gaps = np.unique(np.concatenate(changes))
-    return np.insert(at, gaps, np.nan), np.insert(values, gaps, np.nan)
-
-
 def boundaries(
     axes: Axes,
     at: Array,
@@ -326,9 +318,11 @@ def boundaries(
     """
     if kind not in LINES:
         raise ValueError(f"the kind of line {kind!r} is not known; give one of {', '.join(LINES)}")
-    sense = getattr(zones, "left", 0), getattr(zones, "right", 0)
+    left, right = (np.atleast_1d(getattr(zones, edge, 0)) for edge in ("left", "right"))
+    turns = np.flatnonzero((np.diff(left) != 0) | (np.diff(right) != 0)) + 1
+    at = np.insert(np.asarray(at, dtype=float), turns, np.nan)  # a gap wherever slip turns round
     with style():
         for end, text in ((-length(zones.m), label or kind), (length(zones.n), None)):
-            axes.plot(*_broken(np.asarray(at), end, sense), label=text, **LINES[kind])
+            axes.plot(at, np.insert(end, turns, np.nan), label=text, **LINES[kind])
     if axes.get_legend():
         key(axes)

@@ -112,8 +112,11 @@ TWO = History(*(np.stack([v, v]) for v in WHOLE))
 def test_what_cannot_be_drawn_is_refused(history: Any, x: Any, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         plot.slip_map(history, x)
-    with pytest.raises(ValueError, match=words):
-        plot.work(hertz, history, x, **FRICTION)
+
+
+def test_a_map_needs_two_instants() -> None:
+    with pytest.raises(ValueError, match="give one row of at least two"):
+        plot.slip_map(History(*(v[:1] for v in WHOLE)), X)
 
 
 @pytest.mark.parametrize("draw", [plot.slip_map, partial(plot.film, hertz, **FRICTION)])
@@ -146,16 +149,8 @@ def test_instants_are_chosen_by_a_list_of_indices(at: Any) -> None:
 )
 def test_friction_is_that_of_the_history(body: Any, given: dict[str, Any], words: str) -> None:
     law = {key: value for key, value in {**FRICTION, **given}.items() if value is not None}
-    for draw in (plot.film, plot.work, partial(plot.instants, at=[1])):
-        with pytest.raises(ValueError, match=words):
-            draw(body, WHOLE, X, **law)
-
-
-def test_labels_and_the_number_of_instants_are_checked() -> None:
-    with pytest.raises(ValueError, match="1 labels are given for 2"):
-        plot.instants(hertz, WHOLE, X, [1, 2], ["one"], **FRICTION)
-    with pytest.raises(ValueError, match="give one row of at least two"):
-        plot.slip_map(History(*(v[:1] for v in WHOLE)), X)
+    with pytest.raises(ValueError, match=words):
+        plot.friction_work(body, WHOLE, X, **law)
 
 
 def notes(of: Any) -> list[list[str]]:
