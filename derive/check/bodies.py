@@ -26,7 +26,7 @@ from derive.command.errors import (
 from derive.command.files import Unreadable, bytes_of
 from derive.command.new_geometry import TEXT_LIMITS, Wanted, new_geometry
 from derive.command.processes import Report, in_processes
-from derive.proof.numerical import NumericalRoutes
+from derive.proof.numerical import numeric_proof
 from derive.proof.symbolic import symbolic_proof
 from derive.sheet.derivation import derive_sheet
 from derive.sheet.formulas import FormulaSheet
@@ -40,7 +40,6 @@ class ProvenBody:
 
     def __init__(self, geometry: Geometry) -> None:
         self.sheet: FormulaSheet = derive_sheet(geometry)
-        self._routes = NumericalRoutes(self.sheet)
         self._known: dict[str, Expr] = {}
 
     @property
@@ -51,7 +50,7 @@ class ProvenBody:
     def formula(self, name: str) -> Expr:
         """Return a formula that is proven symbolically or else to 30 digits; raises NotProven."""
         if name not in self._known:
-            proof = symbolic_proof(self.sheet, name) or self._routes.proof(name)
+            proof = symbolic_proof(self.sheet, name) or numeric_proof(self.sheet, name)
             if proof is None or not proof.holds:
                 raise NotProven(f"{name} of {self.sheet.geometry.name!r}: {proof}")
             self._known[name] = self.sheet.flat(name)

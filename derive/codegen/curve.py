@@ -118,7 +118,8 @@ def _branch(piece: Piece, position: Expr, sense: int) -> Iterator[str]:
         yield f"        {symbol} = {printer.doprint(value)}"
     given = piece.slope.subs(x, position + sense * _t)
     slope = _shortest(simplify, Add.make_args(given))
-    curvature = _shortest(_positive_form, rates(slope), is_positive=True)
+    # factoring often gives a form of g'' without subtraction
+    curvature = _shortest(lambda e: factor(simplify(e)), rates(slope), is_positive=True)
     change = _shortest(simplify, [_t * rate for rate in rates(curvature)])
     curves = [slope, curvature, change]
     steps, values = _roots_once(*cse(curves, symbols=_named("s_", curves)))
@@ -200,11 +201,6 @@ def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
         results.append((name, value.xreplace(shared)))
         results += [(roots[name], sqrt(name))] if name in roots else []
     return results, [value.xreplace(shared) for value in values]
-
-
-def _positive_form(curvature: Expr) -> Expr:
-    """A form of g'' without subtraction, if factoring gives one."""
-    return factor(simplify(curvature))
 
 
 def _shortest(

@@ -8,7 +8,6 @@ Each corner, where g' jumps, adds a term in which the jump of g' takes the place
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
 from sympy import (
@@ -68,78 +67,58 @@ class IntegratedText(FunctionText):
     @property
     def _equations(self) -> Iterator[str]:
         """The integrals that are evaluated; a closed formula, if there is one, is on the sheet."""
-        yield from Integrals(self.sheet).lines(self.function.formulas)
+        yield from lines_of(self.sheet, self.function.formulas)
 
 
-@dataclass(frozen=True)
-class Integrals:
-    """The integrals of one body."""
+def formula_of(profile: Slope, name: str) -> Expr:
+    """The expression that is evaluated for a formula of the sheet.
 
-    sheet: FormulaSheet
+    >>> from derive.body.library import load_geometry
+    >>> formula_of(load_geometry("catenary").slope, "load")
+    E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2
+    """
 
-    def formula(self, name: str) -> Expr:
-        """The expression that is evaluated for a formula of the sheet.
-
-        >>> from derive.sheet.derivation import derive_sheet
-        >>> from derive.body.library import load_geometry
-        >>> Integrals(derive_sheet(load_geometry("catenary"))).formula("load")
-        E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2
-        """
-        if name == "tilt":
-            return -Integral(slope(xi) / w(xi), (xi, -a, c)) / pi
-        if name == "load":
-            return E_star / 2 * self._pressed(w)
-        if name == "moment":
-            turned = self._pressed(lambda s: w(s) * (a - c + 2 * s))
-            return (a - c) * P / 2 - E_star / 8 * turned
-        if name == "pressure":
-            return E_star / pi * self._pressed(lambda s: kernel(x, s))
-        ratio = to_left if name.endswith("left") else to_right
-        if name.startswith("K_N"):
-            return E_star / (pi * sqrt(h)) * self._pressed(ratio)
-        finite = self._pressed(lambda s: ratio(s) * (3 + 2 * ratio(s) ** 2), FinitePart)
-        return E_star / (6 * pi * h ** Rational(3, 2)) * finite
-
-    def _pressed(self, weight: Callable[[Expr], Expr], of: Callable[[Expr], Expr] = S) -> Expr:
+    def pressed(weight: Callable[[Expr], Expr], of: Callable[[Expr], Expr] = S) -> Expr:
         """int g'' weight dxi, plus the terms of the corners."""
         curved = of(Integral(curvature(xi) * weight(xi), (xi, -a, c)))
-        return curved + sum((k.step * weight(k.position) for k in self._corners), S.Zero)
+        return curved + sum((k.step * weight(k.position) for k in _corners(profile)), S.Zero)
 
-    @property
-    def _corners(self) -> tuple[Kink, ...]:
-        return _corners(self.sheet.geometry.slope)
-
-    @property
-    def definitions(self) -> Mapping[Expr, Expr]:
-        """The definitions of the functions; they are zero at a corner outside the contact."""
-        return _definitions(self.sheet.geometry.slope)
-
-    def lines(self, names: tuple[str, ...]) -> Iterator[str]:
-        """The formulas as they are printed, and the definitions of the functions in them."""
-        formulas = {self.sheet[name].symbol: self.formula(name) for name in names}
-        if "moment" in names:
-            formulas[P] = self.formula("load")
-        own = Function(local(self.sheet, "w"))  # a parameter may be named w
-
-        def text(expr: Expr) -> str:
-            return text_of(expr.replace(w, own))
-
-        for symbol, expr in formulas.items():
-            yield f"{symbol} = {text(expr)}"
-        used = {node.func for expr in formulas.values() for node in expr.atoms(Function)}
-        for called, definition in self.definitions.items():
-            if called.func in used:
-                yield f"{text(called)} = {text(definition)}"
-        if FinitePart in used:
-            yield _IN_WORDS
+    if name == "tilt":
+        return -Integral(slope(xi) / w(xi), (xi, -a, c)) / pi
+    if name == "load":
+        return E_star / 2 * pressed(w)
+    if name == "moment":
+        return (a - c) * P / 2 - E_star / 8 * pressed(lambda s: w(s) * (a - c + 2 * s))
+    if name == "pressure":
+        return E_star / pi * pressed(lambda s: kernel(x, s))
+    ratio = to_left if name.endswith("left") else to_right
+    if name.startswith("K_N"):
+        return E_star / (pi * sqrt(h)) * pressed(ratio)
+    finite = pressed(lambda s: ratio(s) * (3 + 2 * ratio(s) ** 2), FinitePart)
+    return E_star / (6 * pi * h ** Rational(3, 2)) * finite
 
 
-def _corners(slope: Slope) -> tuple[Kink, ...]:
-    return tuple(k for k in slope.kinks if k.is_corner)
+def lines_of(sheet: FormulaSheet, names: tuple[str, ...]) -> Iterator[str]:
+    """The formulas as they are printed, and the definitions of the functions in them."""
+    profile, own = sheet.geometry.slope, Function(local(sheet, "w"))  # a parameter may be named w
+    formulas = {sheet[name].symbol: formula_of(profile, name) for name in names}
+    if "moment" in names:
+        formulas[P] = formula_of(profile, "load")
+    used = {node.func for expr in formulas.values() for node in expr.atoms(Function)}
+    defined = {f: d for f, d in definitions_of(profile).items() if f.func in used}
+    for left, right in (formulas | defined).items():
+        yield f"{text_of(left.replace(w, own))} = {text_of(right.replace(w, own))}"
+    if FinitePart in used:
+        yield _IN_WORDS
+
+
+def _corners(profile: Slope) -> tuple[Kink, ...]:
+    return tuple(k for k in profile.kinks if k.is_corner)
 
 
 @lru_cache(maxsize=2)
-def _definitions(profile: Slope) -> Mapping[Expr, Expr]:
+def definitions_of(profile: Slope) -> Mapping[Expr, Expr]:
+    """The definitions of the functions; they are zero at a corner outside the contact."""
     left, right = a + xi, c - xi
     ratios = (right / left, left / right)
     least = Min((a + x) * right, left * (c - x))

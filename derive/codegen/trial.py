@@ -42,6 +42,10 @@ _CYCLES = 6
 """Number of contacts at which a stick zone is tried."""
 
 
+_CARRIED = {P: "load", M: "moment", alpha: "tilt"}
+"""Formulas of what a contact carries."""
+
+
 def demand_right(sheet: FormulaSheet, text: str, stuck: str) -> None:
     """Run the module and compare its results with the sheet.
 
@@ -49,23 +53,21 @@ def demand_right(sheet: FormulaSheet, text: str, stuck: str) -> None:
     """
     name = sheet.geometry.name
     with imported(name, text, stuck) as module, mpmath.workdps(WORKING):
-        points = _usable(sheet, contacts(sheet))
+        points = _usable(sheet)
         for function in CONTRACT:
-            if P in function.arguments:
-                _demand_inverse(sheet, function, module, points)
-            else:
-                _demand_forward(sheet, function, module, points)
+            _demand_agreement(sheet, function, module, points)
         _demand_patch(sheet, module, points[:_CYCLES])
 
 
-def _usable(sheet: FormulaSheet, points: list[Point]) -> list[Point]:
-    """Contacts whose tilt, load and moment, and the squares of these, are in the range of float64.
+def _usable(sheet: FormulaSheet) -> list[Point]:
+    """Contacts with what they carry, which is in the range of float64, as are its squares.
 
     Raises NotProven if these are fewer than half of the contacts.  For example, exp(exp(x/b))
     leaves the range at x = 6.6 b.
     """
-    carried = [numeric(sheet.flat(name)) for name in ("tilt", "load", "moment")]
-    usable = [p for p in points if all(abs(value(p)) < _LARGEST for value in carried)]
+    carried = {symbol: numeric(sheet.flat(name)) for symbol, name in _CARRIED.items()}
+    points = [{**p, **{s: value(p) for s, value in carried.items()}} for p in contacts(sheet)]
+    usable = [p for p in points if all(abs(p[symbol]) < _LARGEST for symbol in carried)]
     if len(usable) < len(points) / 2:
         raise NotProven(
             f"module of {sheet.geometry.name!r}: tilt, load and moment are below {_LARGEST:g} at "
@@ -76,33 +78,25 @@ def _usable(sheet: FormulaSheet, points: list[Point]) -> list[Point]:
     return usable
 
 
-def _demand_forward(
+def _demand_agreement(
     sheet: FormulaSheet, function: Function, module: ModuleType, points: list[Point]
 ) -> None:
+    """Compare every field with the sheet; the contact at the loads of a contact is that contact."""
     results = _called(module, function, sheet, points)
-    for (field, source), values in zip(function.fields, results, strict=True):
-        expected = [numeric(sheet.flat(str(source)))(point) for point in points]
-        scale = max(abs(value) for value in expected)
-        for point, value, right in zip(points, values, expected, strict=True):
-            size = abs(right) + (0 if function.name == "pressure" else scale / 100)
-            _demand_close(sheet, f"{function.name} {field}".strip(), value, right, size, point)
-
-
-def _demand_inverse(
-    sheet: FormulaSheet, function: Function, module: ModuleType, points: list[Point]
-) -> None:
-    """Check that the contacts computed from the loads of known contacts are these contacts."""
-    forward = {P: "load", M: "moment", alpha: "tilt"}
-    given = [
-        {**point, **{s: numeric(sheet.flat(name))(point) for s, name in forward.items()}}
-        for point in points
-    ]
-    results = _called(module, function, sheet, given)
-    for field, values in zip((a, c, alpha), results, strict=True):
-        for point, value in zip(given, values, strict=True):
-            size = 100 * (point[a] + point[c]) if field != alpha else 100 + abs(point[alpha])
-            label = f"{function.name} {field}"
-            _demand_close(sheet, label, value, point[field], size, point)
+    for (field, source), found in zip(function.fields, results, strict=True):
+        if P in function.arguments:
+            symbol = {"a": a, "c": c, "alpha": alpha}[field]
+            wanted = [point[symbol] for point in points]
+            sizes = [
+                100 + abs(p[alpha]) if field == "alpha" else 100 * (p[a] + p[c]) for p in points
+            ]
+        else:
+            wanted = [numeric(sheet.flat(str(source)))(point) for point in points]
+            scale = 0 if function.name == "pressure" else max(map(abs, wanted)) / 100
+            sizes = [abs(right) + scale for right in wanted]
+        label = f"{function.name} {field}".strip()
+        for value, right, size, point in zip(found, wanted, sizes, points, strict=True):
+            _demand_close(sheet, label, value, right, size, point)
 
 
 def _demand_patch(sheet: FormulaSheet, module: ModuleType, points: list[Point]) -> None:
@@ -113,8 +107,8 @@ def _demand_patch(sheet: FormulaSheet, module: ModuleType, points: list[Point]) 
     """
     constants = [E_star, *(q.symbol for q in sheet.geometry.parameters)]
     for i, point in enumerate(points):
-        load, tilt = (numeric(sheet.flat(name))(point) for name in ("load", "tilt"))
-        shear, width = load / 4, point[a] + point[c]
+        load, tilt, width = point[P], point[alpha], point[a] + point[c]
+        shear = load / 4
         tension = (-1) ** i * 4 * shear / (mpmath.pi * width)
         here = module.Contact(float(point[a]), float(point[c]), float(tilt))
         given = {str(s): float(point[s]) for s in constants}

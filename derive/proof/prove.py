@@ -5,7 +5,7 @@ from dataclasses import replace
 import mpmath
 from mpmath.libmp import NoConvergence
 
-from derive.proof.numerical import NumericalRoutes
+from derive.proof.numerical import numeric_proof
 from derive.proof.points import contacts, named, numeric, numeric_by_steps
 from derive.proof.symbolic import symbolic_proof
 from derive.proof.verdict import WORKING, Comparison, Proof, Verdict, combined, numerical_proof
@@ -38,10 +38,9 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
     >>> all(formula.proof.holds for formula in proven.values())
     True
     """
-    numerical = NumericalRoutes(sheet)
     proven, left_out = {}, []
     for name, formula in sheet.items():
-        proof = _proof(sheet, name, numerical)
+        proof = _proof(sheet, name)
         if formula.closes and not proof.holds:
             left_out.append(name)
         else:
@@ -52,13 +51,13 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
     return replace(sheet, formulas=proven, remark=remark)
 
 
-def _proof(sheet: FormulaSheet, name: str, numerical: NumericalRoutes) -> Proof:
+def _proof(sheet: FormulaSheet, name: str) -> Proof:
     """The proof of one formula; a closed form that cannot be evaluated somewhere is not proven."""
     if not sheet[name].closes:
-        proof = combined(symbolic_proof(sheet, name), numerical.proof(name))
+        proof = combined(symbolic_proof(sheet, name), numeric_proof(sheet, name))
         return _also_computed(sheet, name, proof)
     try:
-        return combined(None, numerical.proof(name))
+        return combined(None, numeric_proof(sheet, name))
     except (ArithmeticError, ValueError, TypeError, NoConvergence) as error:
         return Proof(Verdict.UNKNOWN, f"cannot be evaluated: {error}")
 

@@ -179,17 +179,8 @@ class Program:
                 return (root if node.exp.is_positive else _over_root), (node.base,)
             return power, node.args
         if node.func in FUNCTIONS:
-            return FUNCTIONS[node.func], self._grouped(node)
+            return FUNCTIONS[node.func], tuple(node.args)
         return _by_mpmath(node), tuple(sorted(node.free_symbols, key=str))
-
-    def _grouped(self, node: Expr) -> tuple[Basic, ...]:
-        """Arguments, with terms or factors that do not vary along the symbol taken together."""
-        if self._along is None or not (node.is_Add or node.is_Mul) or len(node.args) < 3:
-            return tuple(node.args)
-        fixed = [arg for arg in node.args if not arg.has(self._along)]
-        if not 1 < len(fixed) < len(node.args):
-            return tuple(node.args)
-        return node.func(*fixed), *(arg for arg in node.args if arg not in fixed)
 
     def __call__(self, numbers: Numbers) -> Any:
         """The value for the numbers of all symbols."""
@@ -269,14 +260,15 @@ def _by_mpmath(node: Basic) -> Operation:
 
 
 @cache
-def _separated(over: Integral) -> tuple[Expr, Expr, tuple[Symbol, Expr, Expr]]:
-    """A constant factor, the integrand without it, and its limits.
+def _separated(over: Integral) -> tuple[Expr, Expr, tuple[Symbol, Expr, Expr], list[Symbol]]:
+    """A constant factor, the integrand without it, its limits, and the symbols of both.
 
     SymPy writes nested integrals as one integral with several limits.
     """
     *inner, outer = over.limits
     inside = Integral(over.function, *inner) if inner else over.function
-    return *inside.as_independent(outer[0], as_Add=False), outer
+    factor, rest = inside.as_independent(outer[0], as_Add=False)
+    return factor, rest, outer, sorted(Integral(rest, outer).free_symbols, key=str)
 
 
 _KNOWN: dict[tuple[Any, ...], Ball | Undecided] = {}
@@ -284,8 +276,7 @@ _KNOWN: dict[tuple[Any, ...], Ball | Undecided] = {}
 
 def _integrated(over: Integral, numbers: Numbers, twice: bool) -> Ball:
     """The integral to the working digits of mpmath; remembered."""
-    factor, inside, limits = _separated(over)
-    held = sorted(Integral(inside, limits).free_symbols, key=str)
+    factor, inside, limits, held = _separated(over)
     key = (
         *(inside, *limits, mpmath.mp.dps, twice),
         *(number(part) for symbol in held for part in (numbers[symbol], numbers[symbol].rad())),

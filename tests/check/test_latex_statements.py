@@ -236,9 +236,16 @@ def test_no_equation_follows_from_an_inequality_with_a_remainder(tmp_path: Path)
     assert not any("understood" in each for each in found)
 
 
-def test_a_long_equation_is_refused_at_once(tmp_path: Path) -> None:
-    (one,) = claims(tmp_path, r"\[ x_{" + "a " * 3000 + r"+} = b \]")
-    assert "at most 2000 are read" in str(one["unchecked"])
+@pytest.mark.parametrize(
+    ("latex", "why"),
+    [
+        ("x_{" + "a " * 3000 + "+} = b", "at most 2000 are read"),
+        ("{" * 9000 + "a" + "}" * 9000, "brackets are nested too deeply"),
+    ],
+)
+def test_a_long_display_is_refused_at_once(latex: str, why: str, tmp_path: Path) -> None:
+    (one,) = claims(tmp_path, rf"\[ {latex} \]")
+    assert why in str(one["unchecked"])
 
 
 def test_what_follows_from_a_condition_is_not_read(tmp_path: Path) -> None:

@@ -11,8 +11,15 @@ from mpmath import mpf
 from sympy import Abs, Expr, Function, Integral, Max, Piecewise, cosh, lambdify
 
 from derive import Geometry, parameter, x
+from derive.body.profile import Slope
 from derive.codegen.contract import CONTRACT
-from derive.codegen.integrals import FinitePart, Integrals, curvature
+from derive.codegen.integrals import (
+    FinitePart,
+    curvature,
+    definitions_of,
+    formula_of,
+    lines_of,
+)
 from derive.codegen.plan import Route, route_of
 from derive.proof.points import Point, numeric
 from derive.sheet.derivation import derive_sheet
@@ -61,7 +68,7 @@ def written_out(expr: Expr, definitions: dict[Expr, Expr]) -> Expr:
     return expr
 
 
-def computed(printed: Expr, body: Integrals, point: Point) -> mpf:
+def computed(printed: Expr, body: Slope, point: Point) -> mpf:
     """A printed formula in numbers, its integrals by quadrature."""
     known: dict[Expr, mpf] = {}
     for node in printed.atoms(Integral, FinitePart):
@@ -71,23 +78,23 @@ def computed(printed: Expr, body: Integrals, point: Point) -> mpf:
         known[node] = _finite_part(node.args[0].function, body, point)
     held = sorted(known, key=lambda node: isinstance(node, Integral))
     names = {node: Function(f"value_{i}")() for i, node in enumerate(held)}
-    rest = written_out(printed.subs([(node, names[node]) for node in held]), body.definitions)
+    rest = written_out(printed.subs([(node, names[node]) for node in held]), definitions_of(body))
     numbers = {str(name.func): lambda v=known[node]: v for node, name in names.items()}
     symbols = [*point]
     return lambdify(symbols, rest, [numbers, "mpmath"])(*(point[s] for s in symbols))
 
 
-def _along(integrand: Expr, body: Integrals, point: Point) -> Callable[[mpf], mpf]:
-    whole = written_out(integrand, body.definitions)
+def _along(integrand: Expr, body: Slope, point: Point) -> Callable[[mpf], mpf]:
+    whole = written_out(integrand, definitions_of(body))
     symbols = [*point]
     function = lambdify([xi, *symbols], whole, "mpmath")
     return lambda s: function(s, *(point[symbol] for symbol in symbols))
 
 
-def _integral(f: Callable[[mpf], mpf], point: Point, body: Integrals, d: mpf | int = 0) -> mpf:
+def _integral(f: Callable[[mpf], mpf], point: Point, body: Slope, d: mpf | int = 0) -> mpf:
     """From edge to edge, or from d beside the left one to d beside the right one."""
     low, high = -point[a], point[c]
-    inner = [numeric(kink.position)(point) for kink in body.sheet.geometry.slope.kinks]
+    inner = [numeric(kink.position)(point) for kink in body.kinks]
     inner += [point[x], *(end for k in range(90) for end in _beside(low, high, d * 2**k) if d)]
     cuts = sorted({low + d, high - d, *(s for s in inner if low + d < s < high - d)})
     return sum(mpmath.quad(f, ends, method="tanh-sinh") for ends in pairwise(cuts))
@@ -97,7 +104,7 @@ def _beside(low: mpf, high: mpf, d: mpf) -> tuple[mpf, mpf]:
     return (low + d, high - d) if d < (high - low) / 4 else (low, high)
 
 
-def _finite_part(integrand: Expr, body: Integrals, point: Point) -> mpf:
+def _finite_part(integrand: Expr, body: Slope, point: Point) -> mpf:
     """Close to its edge it is 2 g'' (h/s)**(3/2): without 4 g'' h**(3/2)/sqrt(d)."""
     f, d = _along(integrand, body, point), mpf(10) ** -22
     h, side = point[a] + point[c], "left" if "r_left" in str(integrand) else "right"
@@ -116,21 +123,21 @@ def test_the_printed_integrals_are_the_formulas_of_the_sheet(
     sheet = sheet_of(name)
     (second,) = (function for function in CONTRACT if function.name == "L_N")
     assert route_of(sheet, second) is Route.QUADRATURE
-    body = Integrals(sheet)
+    body = sheet.geometry.slope
     with mpmath.workdps(60):  # differences at the edges lose half of them
         own = {"R": mpf(1.5), "b": mpf(0.5), "phi": mpf(0.125)}
         point: Point = {q.symbol: own[q.name] for q in sheet.geometry.parameters}
         point |= {E_star: mpf(1), **dict(zip((a, c, x), map(mpf, given), strict=True))}
         point[P] = numeric(sheet.flat("load"))(point)
         for formula in (*NAMES, *AT_EDGES):
-            found = computed(body.formula(formula), body, point)
+            found = computed(formula_of(body, formula), body, point)
             wanted = numeric(sheet.flat(formula))(point)
             allowed = 1e-9 if formula.startswith("L_N") else 1e-25
             assert abs(found - wanted) <= allowed * (abs(wanted) + point[P] / 100), formula
 
 
 def test_the_lines_define_all_that_they_hold() -> None:
-    assert [*Integrals(sheet_of("cubic edges")).lines(("load",))] == [
+    assert [*lines_of(sheet_of("cubic edges"), ("load",))] == [
         "P = E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2",
         "w(xi) = sqrt((a + xi)*(c - xi))",
         "g''(xi) = Piecewise((-6*(b + xi)/R**2, b < -xi), (0, b > xi), (6*(-b + xi)/R**2, True))",
@@ -140,7 +147,7 @@ def test_the_lines_define_all_that_they_hold() -> None:
 def test_a_parameter_may_have_the_name_of_the_theory_s_root() -> None:
     w = parameter("w", "half-width", unit="m")
     sheet = derive_sheet(Geometry("valley", g=w * (cosh(x / w) - 1)))
-    assert list(Integrals(sheet).lines(("load",))) == [
+    assert list(lines_of(sheet, ("load",))) == [
         "P = E_star*Integral(g''(xi)*w_(xi), (xi, -a, c))/2",
         "w_(xi) = sqrt((a + xi)*(c - xi))",
         "g''(xi) = cosh(xi/w)/w",
