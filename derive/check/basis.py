@@ -94,14 +94,11 @@ def _arbitrary(*sides: Expr) -> Iterator[tuple[Expr, Expr]]:
 
 
 def _with_functions(side: Expr, sign: int) -> Expr:
-    while calls := [n for n in side.atoms(AppliedUndef) if not _has_call(n)]:
-        side = side.xreplace({n: _function(n.func.__name__, n.args, sign) for n in calls})
+    while calls := side.atoms(AppliedUndef):  # a call may be an argument of another one
+        inner = [n for n in calls if not any(arg.has(AppliedUndef) for arg in n.args)]
+        side = side.xreplace({n: _function(n.func.__name__, n.args, sign) for n in inner})
     found = proper(side)
     return found.xreplace({node: node.doit() for node in found.atoms(Derivative, Limit)})
-
-
-def _has_call(call: AppliedUndef) -> bool:
-    return any(arg.has(AppliedUndef) for arg in call.args)
 
 
 def _function(name: str, args: tuple[Expr, ...], sign: int) -> Expr:

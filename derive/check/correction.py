@@ -31,6 +31,9 @@ _FIRSTS = 12
 """The largest number of first changes that are combined with a second one."""
 
 
+_NOT_YET = Judged(Verdict.UNCHECKED, "")
+
+
 @dataclass(frozen=True)
 class Repair:
     """An equation that differs from the printed one by a change.
@@ -38,7 +41,7 @@ class Repair:
     change  the kind of the change, and what was changed
     judged  the evidence that it is true, once it has been judged
     on_left whether the left side was changed
-    also    other changes that make it true, in words
+    also    other changes that may make it true, because they are not shown to be false, in words
     """
 
     left: Expr
@@ -46,7 +49,7 @@ class Repair:
     relation: Relation
     kind: str
     change: str
-    judged: Judged
+    judged: Judged = _NOT_YET
     on_left: bool = False
     also: tuple[str, ...] = ()
 
@@ -63,31 +66,28 @@ class Repair:
         return bool(self.left.xreplace(table) == self.right.xreplace(table))
 
 
-_NOT_YET = Judged(Verdict.UNCHECKED, "")
-
-
 def repaired(claim: Claim, look: LookAtClock = no_clock) -> tuple[Repair | None, int]:
     """Return the simplest change that makes the claim true, and the number of changes tried."""
     tried, printed = 0, Sides.printed(claim)
     judged = _judged(printed, look)
     for batch in _batches(printed):
-        true = []
+        fitting = []
         for each in batch:
             tried += 1
             if found := judged(each):
-                true.append(replace(each, judged=found))
+                fitting.append(replace(each, judged=found))
         if claim.meant.toward is not None:
-            true = [*_outstanding(true)]
-        if true:
-            best, *others = sorted(true, key=lambda one: one.plainness)
-            also = {(one.left, one.right): one.change for one in others}
-            also.pop((best.left, best.right), None)  # changes that lead to the same equation
+            fitting = [*_outstanding(fitting)]
+        if true := [each for each in fitting if each.judged.good]:
+            best = min(true, key=lambda one: one.plainness)
+            also = {(one.left, one.right): one.change for one in fitting}
+            del also[best.left, best.right]  # changes that lead to the same equation
             return replace(best, also=tuple(also.values())), tried
     return None, tried
 
 
 def _judged(printed: Sides, look: LookAtClock) -> Callable[[Repair], Judged | None]:
-    """Return what judges a change like the printed equation; it gives None if it is not true.
+    """Return what judges a change like the printed equation; it gives None if it may not be true.
 
     A change is first tried by a few digits at one point, where the printed sides are real.
     """
@@ -109,10 +109,12 @@ def _judged(printed: Sides, look: LookAtClock) -> Callable[[Repair], Judged | No
         found = judge(of_its_relation, look, approach)
         is_idle = is_equation and each.is_identity()
         is_misfit = is_limit and not _fit(known, each.left, each.right)
+        if found.verdict == Verdict.FAILS or is_idle or is_misfit or (is_limit and not found.good):
+            return None
         # the sign of a square is 1, except at one point
-        is_sure = has_integral(claim) or not Tuple(each.left, each.right).has(sign)
-        is_true = found.good and (is_sure or found.verdict == Verdict.HOLDS)
-        return found if is_true and not is_idle and not is_misfit else None
+        is_doubtful = Tuple(each.left, each.right).has(sign) and not has_integral(claim)
+        is_shown = found.verdict == Verdict.HOLDS or not is_doubtful
+        return found if is_shown else replace(found, verdict=Verdict.UNCHECKED)
 
     return judged
 
@@ -163,12 +165,12 @@ def _other_relations(claim: Claim) -> Iterator[Repair]:
     left, relation, right = claim.meant.left, claim.meant.relation, claim.meant.right
     for other in (Relation.EQUAL, relation.turned) if left != right else ():
         change = f"relation {other} for {relation}"
-        yield Repair(left, right, other, "relation", change, _NOT_YET)
+        yield Repair(left, right, other, "relation", change)
 
 
 def _changed(claim: Claim, left: Expr, right: Expr, kind: str, what: str) -> Repair:
     on_left = left != claim.meant.left
-    return Repair(left, right, claim.meant.relation, kind, f"{kind} {what}", _NOT_YET, on_left)
+    return Repair(left, right, claim.meant.relation, kind, f"{kind} {what}", on_left=on_left)
 
 
 def swaps_on_right(claim: Claim) -> tuple[Symbol, ...]:

@@ -17,7 +17,7 @@ from derive.check.draw import LEAST, further, points, ranges_of, spread, unseen,
 from derive.check.intervals import Decision, decide, ends, gap_of
 from derive.check.sides import Pair, Sides
 from derive.check.tending import Approach
-from derive.check.zero import vanishes, vanishes_at
+from derive.check.zero import constant, vanishes, vanishes_at
 from derive.command.limit import LimitReached, LookAtClock
 from derive.proof.values import Undecided, Undefined
 from derive.proof.verdict import DIGITS
@@ -286,6 +286,8 @@ class Judging:
             return self._judged(Verdict.HOLDS, f"{self._proof}; {agree}")
         if self._proof is None:
             agree += f"; no proof was found within {self.claim.seconds:g} s"
+        elif (other := constant(self.sides.difference)) is not None:
+            return self._judged(Verdict.FAILS, f"left minus right is {other}")
         return self._judged(Verdict.NUMERICAL, agree)
 
     # -------------------------------------------------------------- in words

@@ -44,6 +44,8 @@ _FACTORS = tuple(
     f for n in (S(2), pi, S(4), S(3), 2 * pi, S(8), sqrt(2), sqrt(pi)) for f in (n, 1 / n)
 )
 _OF_A_TERM, _OF_A_ROOT = _FACTORS[:6], _FACTORS[12:]
+_MULTIPLES = S(2), S.Half, Rational(3, 2), Rational(2, 3)
+"""Multiples of an exponent that may have been intended."""
 _LIKE = {each.of_sympy: each.like for each in FUNCTIONS.values() if each.like}
 """The family of each function; those of one family may have been confused with each other."""
 
@@ -284,18 +286,9 @@ def _other_exponent(place: Place, names: Names) -> _Changed:
         size = abs(group[0][1])
         inside = Mul(*(base ** (e / size) for base, e in group))
         with_number = abs(number) ** (1 / size) * inside
-        others = {
-            -size,
-            1 / size,
-            2 * size,
-            size / 2,
-            3 * size / 2,
-            2 * size / 3,
-            size + 1,
-            size - 1,
-        }
+        others = {-size, 1 / size, size + 1, size - 1, *(n * size for n in _MULTIPLES)} - {0}
         for before, bracket in ((number, inside), (sign(number), with_number)):
-            for other in sorted(others - {0}):
+            for other in sorted(others):
                 changed = before * (rest / inside**size) * bracket**other
                 yield f"{other} on {bracket}{end}", changed
 

@@ -56,6 +56,12 @@ def vanishes_at(expr: Expr, point: Mapping[Symbol, Rational]) -> bool:
     return not is_too_long(placed) and _is_zero(placed)
 
 
+def constant(expr: Expr) -> Expr | None:
+    """Return the nonzero number that `expr` is shown to equal, or None."""
+    number = None if is_too_long(expr) else _reduced(expr)
+    return number if number is not None and number.is_number and number.is_nonzero else None
+
+
 def is_too_long(expr: Expr) -> bool:
     """Whether an expression is too long for exact steps, or contains an integral."""
     if expr.has(sp.Integral) or sp.count_ops(expr) > _LONGEST or terms(expr) > _MOST_TERMS:
