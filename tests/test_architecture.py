@@ -54,6 +54,7 @@ def statements(body: Iterable[ast.stmt], at_load: bool) -> Iterator[ast.stmt]:
             yield from statements(ast.iter_child_nodes(node), at_load)  # type: ignore[arg-type]
 
 
+@cache
 def imported(name: str, at_load: bool = False) -> set[str]:
     """Dotted names that a module imports; of the project's own, the modules themselves."""
     path, found = MODULES[name], set()

@@ -5,16 +5,15 @@ from pathlib import Path
 
 import pytest
 
-from derive.body.library import load_geometry
 from derive.check.claim import Verdict
 from derive.check.userfile import read_claims
-from derive.sheet.derivation import derive_sheet
+from tests.derive.bodies import of_library
 
 CLAIMS = (Path(__file__).parents[1] / "docs" / "claims.md").read_text()
 
 
 def test_the_formulas_listed_are_those_of_the_sheet() -> None:
-    sheet = derive_sheet(load_geometry("hertz"))
+    sheet = of_library("hertz")
     listed = re.findall(r"^\| `(\w+)\((.*?)\)` \| (.*?) \| (.*?) \|$", CLAIMS, re.M)
     assert len(listed) > 15
     for name, arguments, meaning, unit in listed:

@@ -103,7 +103,7 @@ def value(expr: Expr, name: str) -> float:
     return result.real
 
 
-SLOW = ("bounded", "tilt", "stick", "stick_zone")
+SLOW = ("bounded", "tilt", "stick", "stick_zone", "punches")
 """Equations with integrals that take many seconds."""
 
 EACH = [

@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 
-from derive.body.library import load_geometry
 from derive.command.cli import main
 
 ROOT = Path(__file__).parents[1]
@@ -41,12 +40,11 @@ def test_the_index_leads_to_every_page() -> None:
 
 
 def test_the_handbook_has_a_page_with_every_formula_of_a_body() -> None:
-    from derive.sheet.derivation import derive_sheet
     from tests.codegen.made import body_of
-    from tests.derive.bodies import assumed
+    from tests.derive.bodies import assumed, of_library
 
     pages = module("pages")
-    sheet = assumed(derive_sheet(load_geometry("wedge")))
+    sheet = assumed(of_library("wedge"))
     body = body_of(sheet, (ROOT / "generated" / "wedge.py").read_text())
     text = "\n".join(pages.formulas(sheet, body))
     assert len(re.findall(r"^\$\$ \(wedge-", text, re.M)) == len(sheet)

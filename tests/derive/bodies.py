@@ -13,7 +13,6 @@ from sympy import Abs, Expr, Max, Piecewise, lambdify
 
 from derive import Geometry, parameter, x
 from derive.body.library import load_geometry
-from derive.proof.prove import prove_sheet
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet.derivation import derive_sheet
 from derive.sheet.formulas import FormulaSheet
@@ -166,18 +165,6 @@ def assumed(of: FormulaSheet, verdict: Verdict = Verdict.PROVEN) -> FormulaSheet
 
 
 @cache
-def proven(name: str) -> FormulaSheet:
-    """The sheet of one body, proven once."""
-    return prove_sheet(sheet(name))
-
-
-@cache
-def mirrored(name: str) -> FormulaSheet:
-    """The sheet of g(-x)."""
-    return derive_sheet(Geometry(f"{name}_mirrored", g=BODIES[name].g.subs(x, -x)))
-
-
-@cache
 def _function(expr: Expr) -> tuple[tuple[str, ...], Callable[..., mpf]]:
     held = sorted(expr.free_symbols, key=str)
     return tuple(symbol.name for symbol in held), lambdify(held, expr, modules="mpmath")
@@ -190,27 +177,17 @@ def number(expr: Expr, **given: float | mpf) -> mpf:
     return mpf(function(*(mpf(numbers[symbol]) for symbol in held)))
 
 
-_FLAT: dict[tuple[int, str], tuple[FormulaSheet, Expr]] = {}
-"""Formulas written out, by sheet and name; a sheet that is held keeps its identity."""
-
-
-def _flat(of: FormulaSheet, formula: str) -> Expr:
-    key = id(of), formula
-    if key not in _FLAT:
-        _FLAT[key] = of, of.flat(formula)
-    return _FLAT[key][1]
-
-
-def evaluated(of: FormulaSheet, formula: str, **given: float | mpf) -> mpf:
-    """One formula in numbers, at VALUES where nothing else is given; e stands for M/P."""
-    if "P" in given and "M" in given:
-        given["e"] = mpf(given["M"]) / given["P"]
-    return number(_flat(of, formula), **given)
+@cache
+def _flat(name: str, formula: str) -> Expr:
+    return sheet(name).flat(formula)
 
 
 def value(name: str, formula: str, **given: float | mpf) -> mpf:
-    """One formula of one body of BODIES in numbers."""
-    return evaluated(sheet(name), formula, **given)
+    """One formula of one body of BODIES in numbers, at VALUES where nothing else is given; e stands
+    for M/P."""
+    if "P" in given and "M" in given:
+        given["e"] = mpf(given["M"]) / given["P"]
+    return number(_flat(name, formula), **given)
 
 
 def close(first: mpf, second: mpf, *, digits: int = 22, scale: float | mpf = 0) -> bool:

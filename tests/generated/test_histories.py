@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from scipy.integrate import quad
 
 from generated import flat_sloped, hertz
 from generated.runtime.types import Regime
+from tests.generated.test_shear import over
 
 da = pytest.importorskip("dask.array")
 
@@ -60,16 +60,16 @@ def test_friction_s_work_is_that_of_the_rainflow_cycles() -> None:
 
 
 def test_exact_work_where_a_corner_slips() -> None:
-    """int f p slip dx by an adaptive rule; the pressure is infinite at the corners at +-b."""
+    """int f p slip dx by another rule; the pressure is infinite at the corners at +-b."""
     loads, own = (0.5, 0.01, [0.2375], [0.2375]), {"E_star": 1.0, "phi": 0.8, "b": 0.9}
     told = flat_sloped.history(*loads, f=0.5, **own)
     assert told.regime[0] == Regime.MODERATE and told.error[0] == 0
 
-    def rate(x: float) -> float:
+    def rate(x: Any) -> Any:
         p = flat_sloped.pressure(x, told.a[0], told.c[0], **own)
-        return 0.5 * float(p * flat_sloped.history(*loads, x=x, f=0.5, **own).slip[0])
+        return 0.5 * p * flat_sloped.history(*loads, x=x, f=0.5, **own).slip[0]
 
     places = [-told.a[0], -0.9, -told.m[0], told.n[0], told.c[0]]
     assert places == sorted(places)
-    work = sum(quad(rate, *places[k : k + 2], epsabs=1e-9)[0] for k in (0, 1, 3))
+    work = sum(over(rate, *places[k : k + 2], kinks=()) for k in (0, 1, 3))
     assert_allclose(told.work[0], work, rtol=1e-7)

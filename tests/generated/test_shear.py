@@ -361,34 +361,3 @@ def test_a_fall_of_tension_alone_drives_on_what_slipped() -> None:
     fall = {"dQ": 2 * Q, "dsigma": sigma}
     assert np.all(np.isfinite(wedge.shear(x, here, Q, sigma, f=0.5, **own)))
     assert np.all(np.isnan(wedge.shear(x, here, Q, sigma, f=0.5, **own, **fall)))
-
-
-@pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded"])
-def test_slip_of_moderate_tension_is_the_gap_beside_the_patch(name: str) -> None:
-    """2 f times the gap that the body leaves at the patch's load and tilt; the gap opens with the
-    slope g' + alpha less the pressure's strain."""
-    case = Case(name, 0.6)
-    m, n = case.zone.m, case.zone.n
-    law = {"E_star": E_STAR, **case.own}
-    alpha = case.body.tilt(m, n, **case.own)
-    g = {
-        "hertz": lambda x: x**2 / 2,
-        "wedge": lambda x: 0.125 * abs(x),
-        "flat_rounded": lambda x: max(abs(x) - 0.5, 0.0) ** 2 / 2,
-    }[name]
-
-    def pressed(x: float, end: float) -> float:
-        """int_end^x of the pressure's strain: that of 1/(x - s) is a logarithm."""
-
-        def weighted(s: Any) -> Any:
-            return case.body.pressure(s, m, n, **law) * np.log((x - s) / (end - s))
-
-        return 2 / (np.pi * E_STAR) * over(weighted, -m, n)
-
-    for end, edge in ((-m, -1.5), (n, 1.0)):
-        for part in (0.5, 1.0):
-            x = end + part * (edge - end)
-            gap = g(x) - g(end) + alpha * (x - end)
-            gap -= pressed(x, end)
-            slip = case.body.slip_range(x, *case.cycle, **case.law)
-            assert_allclose(slip, 2 * F * gap, rtol=1e-6)

@@ -3,7 +3,6 @@
 import importlib
 import math
 from collections.abc import Iterator
-from functools import partial
 from types import ModuleType
 from typing import Any
 
@@ -15,13 +14,10 @@ from hypothesis import strategies as st
 from mpmath import mpf
 from numpy.testing import assert_allclose, assert_array_equal
 
-from derive.body.library import load_geometry
-from derive.sheet.derivation import derive_sheet
-from derive.sheet.formulas import FormulaSheet
 from generated import hertz, unequal_wedge, wedge
 from generated.runtime.types import Contact, Regime, StickZone
-from tests.derive.bodies import evaluated
-from tests.derive.partial_slip import Cycle
+from tests.measure.accuracy.partial_slip import between, digits_of, patch
+from tests.measure.accuracy.reference import Problem
 
 pytestmark = pytest.mark.slow
 
@@ -36,12 +32,6 @@ OWN: dict[str, dict[str, float]] = {
     "rounded_wedge": {"phi": 0.25, "b": 0.5},
     "quartic": {"L": 1.25},
 }
-KINKS = {
-    "wedge": (0.0,),
-    "unequal_wedge": (0.0,),
-    "two_radii": (0.0,),
-    "wedge_parabola": (0.0,),
-} | {name: (-0.5, 0.5) for name in ("flat_rounded", "rounded_wedge")}
 FIRST, SECOND = (1.5, 1.25), (1.5625, 1.28125)
 """Contacts (a, c) at both ends of a cycle."""
 
@@ -54,43 +44,18 @@ def law(name: str) -> dict[str, float]:
     return {"E_star": E_STAR, **OWN[name]}
 
 
-def sheet(name: str) -> FormulaSheet:
-    return derive_sheet(load_geometry(name))
-
-
-def cycle(
-    name: str,
-    first: tuple[float, float],
-    second: tuple[float, float],
-    shear: float,
-    tension: float,
-    kappa: tuple[int, int],
-) -> Cycle:
-    """A cycle in 30 digits, its pressures from the sheet."""
-    body, own = sheet(name), law(name)
-
-    def pressure(x: mpf, a: float, c: float) -> mpf:
-        """Rounding may put x beyond an edge, where the formula is not real."""
-        x = min(max(x, -a * (1 - 2 * mpmath.eps)), c * (1 - 2 * mpmath.eps))
-        return evaluated(body, "pressure", **own, x=x, a=a, c=c)
-
-    pressures = [partial(pressure, a=a, c=c) for a, c in (first, second)]
-    edges = ((mpf(first[i]), mpf(second[i])) for i in (0, 1))
-    changes = mpf(F), mpf(shear), mpf(tension)
-    return Cycle((pressures[0], pressures[1]), *edges, *changes, kappa, KINKS.get(name, ()))
-
-
 def loads(name: str, *edges: tuple[float, float]) -> Any:
     """P at the contacts (a, c)."""
     return [module(name).load(a, c, **law(name)) for a, c in edges]
 
 
-def missed(whole: Cycle, m: mpf, n: mpf) -> Any:
-    """How far both ends lie off those that meet the conditions: Newton's step."""
-    step = mpf(10) ** -9
-    here, by_m, by_n = (whole.residuals(m + i, n + k) for i, k in ((0, 0), (step, 0), (0, step)))
-    rates = [[(v - u) / step for v in row] for u, *row in zip(here, by_m, by_n, strict=True)]
-    return mpmath.lu_solve(mpmath.matrix(rates), mpmath.matrix(here))
+def known(
+    name: str, edges: list[tuple[float, float]], shear: float, tension: float
+) -> dict[str, float]:
+    """A cycle as tests/measure/accuracy takes it."""
+    first, second = (dict(zip(("a", "c"), each, strict=True)) for each in edges)
+    there = {f"{key}_2": value for key, value in second.items()}
+    return {**law(name), **first, **there, "f": F, "dQ": shear, "dsigma": tension}
 
 
 STILL, VARY = [(1.5, 1.25)] * 2, [FIRST, SECOND]
@@ -125,11 +90,9 @@ def test_a_zone_of_large_tension_meets_both_conditions(
     zone = module(name).stick_zone(*ends, shear, dsigma, f=F, **law(name))
     assert zone.regime == Regime.LARGE
     assert (min(zone.m, zone.n) < 0.01 * sum(edges[0])) == (part > 0.5)
-    sense, bound = (1 if tension > 0 else -1), 1e-11 if part > 0.5 else 1e-12
-    kappa = sense, -sense
-    with mpmath.workdps(24):
-        off = missed(cycle(name, *edges, shear, dsigma, kappa), mpf(zone.m), mpf(zone.n))
-        assert abs(off[0]) < bound * abs(zone.m) and abs(off[1]) < bound * abs(zone.n)
+    problem = Problem(between(name), digits=digits_of(name))
+    exact = problem.answer(zone[:2], known(name, edges, shear, dsigma)).numbers
+    assert_allclose(zone[:2], np.array(exact, float), rtol=1e-11 if part > 0.5 else 1e-12)
 
 
 # ---------------------------------------------------------------------- regimes
@@ -232,6 +195,7 @@ def test_the_mirror_swaps_the_edges(
 LENGTHS = ("R", "b", "R_1", "R_2")
 
 
+@pytest.mark.enough("wedge", "flat_rounded")
 @pytest.mark.parametrize("name", ["hertz", "wedge", "rounded_wedge", "flat_rounded", "two_radii"])
 def test_forces_and_lengths_scale(name: str) -> None:
     """Pa and m are free: random cycles, one with kinks in slip zones and at a place, and one in
@@ -460,29 +424,15 @@ def test_large_tension_holds_at_every_part_of_the_way() -> None:
     ["wedge", "hertz", "flat_rounded", "unequal_wedge", "two_radii", "wedge_parabola"],
 )
 def test_moderate_tension_meets_both_conditions(name: str) -> None:
-    """P and M vary.  The patch is solved for in 30 digits, put into both conditions to 25, and
-    the generated zone is it."""
+    """P and M vary.  The patch is solved for in 50 digits, put into both conditions to 25, and the
+    generated zone is it."""
+    shear = F * sum(loads(name, FIRST, SECOND)) * 0.25
+    given = known(name, [FIRST, SECOND], shear, 2.0 * shear / 3)
+    ends = (Contact(*each, 0.0) for each in (FIRST, SECOND))
+    zone = module(name).stick_zone(*ends, shear, given["dsigma"], f=F, **law(name))
+    assert zone.regime == Regime.MODERATE
+    exact = Problem(patch(name)).answer(zone[:2], given)
+    assert_allclose(zone[:2], np.array(exact.numbers, float), rtol=2e-14)
     with mpmath.workdps(32):
-        body, own = sheet(name), law(name)
-        of = partial(evaluated, body, **own)
-        ends = [{"a": mpf(a), "c": mpf(c)} for a, c in (FIRST, SECOND)]
-        geometry = OWN[name]
-        tilt = sum(evaluated(body, "tilt", **geometry, **end) for end in ends) / 2
-        load = sum(of("load", **end) for end in ends) / 2
-        shear = 2 * F * float(load) * 0.25
-        tension = 2.0 * shear / 3
-        aim = load - mpf(shear) / (2 * F), tilt - mpf(tension) / (4 * F * E_STAR)
-
-        def off(m: mpf, n: mpf) -> tuple[mpf, mpf]:
-            return of("load", a=m, c=n) - aim[0], evaluated(
-                body, "tilt", **geometry, a=m, c=n
-            ) - aim[1]
-
-        zone = module(name).stick_zone(
-            Contact(*FIRST, 0.0), Contact(*SECOND, 0.0), shear, tension, f=F, **law(name)
-        )
-        assert zone.regime == Regime.MODERATE
-        m, n = mpmath.findroot(off, (mpf(zone.m) * 0.999, mpf(zone.n) * 1.001), tol=1e-56)
-        assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=2e-14)
-        whole = cycle(name, FIRST, SECOND, shear, tension, (1, 1))
-        assert max(map(abs, whole.residuals(m, n))) < mpf(10) ** -25 * shear
+        left_over = between(name, large=False)(exact.numbers, exact.given)
+        assert max(map(abs, left_over)) < mpf(10) ** -25 * shear

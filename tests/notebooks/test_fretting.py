@@ -54,7 +54,7 @@ def study(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
 SLOW = pytest.mark.slow
 
 
-@pytest.mark.enough("none known", "light")
+@pytest.mark.enough("light")
 @SLOW
 @pytest.mark.parametrize(
     ("rows", "f"),

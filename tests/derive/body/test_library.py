@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from derive.body.library import library, load_geometry
+from derive.body.library import load_geometry
 from derive.command.processes import end
 from tests.commands import CYLINDER
 
@@ -16,15 +16,6 @@ from tests.commands import CYLINDER
 def written(path: Path, text: str) -> Path:
     path.write_text(text)
     return path
-
-
-def test_the_library_is_the_folder_and_a_body_bears_its_file_s_name_and_words() -> None:
-    assert {"hertz", "wedge"} <= set(library())
-    assert list(library()) == sorted(library())
-    for name in library():
-        body = load_geometry(name)
-        assert body.name == name and not name.startswith("_")
-        assert body.description and all(q.meaning for q in body.parameters)
 
 
 def test_a_file_is_loaded_by_text_and_by_path(tmp_path: Path) -> None:

@@ -226,8 +226,9 @@ def test_a_text_is_shown_with_a_caret_under_its_mistake(
     """Also when the refusal comes back from another process."""
     told = refused_here(here, "new", "blunt", text)
     assert all(map(str.startswith, told.splitlines()[1:], lines)), told
-    monkeypatch.setattr(derive.command.new_geometry, "in_processes", in_processes)
-    assert refused_here(here, "new", "blunt", text) == told
+    if "*" in text:
+        monkeypatch.setattr(derive.command.new_geometry, "in_processes", in_processes)
+        assert refused_here(here, "new", "blunt", text) == told
 
 
 @pytest.mark.slow

@@ -201,6 +201,7 @@ def test_a_failing_write_leaves_nothing_behind(
 # The command
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_the_command_writes_the_file_and_says_what_next(here: Path) -> None:
     told = done("new", "cylinder", "x**2/(2*R)")
     assert (here / "cylinder.py").read_text() == CYLINDER

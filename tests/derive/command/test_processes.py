@@ -77,29 +77,21 @@ def interrupt(what: str, stage: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "report", "error"),
+    ("name", "report", "error", "told"),
     [
-        ("proof", silent, NotProven),
-        ("exit", silent, RanAway),
-        ("wait", interrupt, KeyboardInterrupt),
+        ("proof", silent, NotProven, "tilt of 'body'"),
+        ("exit", silent, RanAway, r"exit: the stage 'begun' crashed, .* --jobs 1"),
+        ("wait", interrupt, KeyboardInterrupt, None),
     ],
 )
 def test_a_failure_does_not_wait_for_the_others(
-    name: str, report: Report, error: type[BaseException]
+    name: str, report: Report, error: type[BaseException], told: str | None
 ) -> None:
     began = time.monotonic()
-    with pytest.raises(error):
+    with pytest.raises(error, match=told):
         in_processes(fails, ["wait", name, "wait", "wait"], report, 2)
     assert time.monotonic() - began < 60  # far less than one of them waits
     assert active_children() == []
-
-
-@pytest.mark.parametrize("place", [0, 2])
-def test_a_process_that_is_lost_is_told_with_what_to_do(place: int) -> None:
-    items = ["wait", "wait"]
-    items.insert(place, "exit")
-    with pytest.raises(RanAway, match=r"exit: the stage 'begun' crashed, .* --jobs 1"):
-        in_processes(fails, items, silent, 3)
 
 
 # ------------------------------------------------------------------ limits

@@ -143,6 +143,7 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
     driver.quit()
 
 
+@pytest.mark.enough("flat_rounded-400", "index-400")
 @pytest.mark.parametrize("width", [400, 1200])
 @pytest.mark.parametrize("name", [*NAMES, "index"])
 def test_a_browser_draws_it(browser: Any, pages: Path, name: str, width: int) -> None:

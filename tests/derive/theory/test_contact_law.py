@@ -2,7 +2,7 @@
 
 import mpmath
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mpf
 from sympy import Symbol, atan2, pi, simplify, sqrt, tan
@@ -15,7 +15,7 @@ from tests.derive.integrals import Function
 
 ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
 CLOSED = ("hertz", "wedge", "unequal_wedge", "shifted_wedge", "wedge_on_the_left")
-OPEN = ("quartic", "two_radii", "flat_rounded", "wedge_on_parabola", "skew")
+OPEN = ("quartic", "two_radii", "flat_rounded")
 
 R, phi, psi, b = (Symbol(name, positive=True) for name in ("R", "phi", "psi", "b"))
 
@@ -63,6 +63,7 @@ _share = st.floats(-0.9375, 0.9375)
 
 
 @pytest.mark.parametrize("name", CLOSED)
+@settings(max_examples=20)
 @given(_positive, _arm)
 def test_the_contact_of_load_and_moment_carries_them(name: str, load: float, arm: float) -> None:
     given_loads = {"P": mpf(load), "M": mpf(load) * arm}
@@ -76,6 +77,7 @@ def test_the_contact_of_load_and_moment_carries_them(name: str, load: float, arm
 
 
 @pytest.mark.parametrize("name", CLOSED)
+@settings(max_examples=20)
 @given(_positive, _share)
 def test_the_contact_of_load_and_tilt_carries_them(name: str, load: float, share: float) -> None:
     low, high = (-0.375 if name == "unequal_wedge" else -0.25), 0.25  # -g' at both ends

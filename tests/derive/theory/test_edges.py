@@ -1,4 +1,4 @@
-"""K_N and the series at an edge: against limits of p, and against the contact law."""
+"""K_N and the series at an edge: against limits of p."""
 
 import mpmath
 import pytest
@@ -31,19 +31,6 @@ def test_K_N_and_L_N_are_what_the_pressure_tends_to(
         first, second = 2 * half - full, 2 * (full - half) / step
     assert close(value(name, f"K_N_{side}", a=left, c=right), first)
     assert close(value(name, f"L_N_{side}", a=left, c=right), second, digits=15, scale=1)
-
-
-@ALL
-def test_K_N_of_both_edges_are_those_of_the_contact_law(
-    name: str, left: float, right: float
-) -> None:
-    """Mossakovskii: K_N,right = (2/pi) P'(c)/sqrt(a + c), and K_N,left = K_N,right/a'(c)."""
-    on_left, on_right, rate, ratio = (
-        value(name, of, a=left, c=right)
-        for of in ("K_N_left", "K_N_right", "load_rate", "edge_ratio")
-    )
-    assert close(on_right, 2 / mpmath.pi * rate / mpmath.sqrt(mpf(left) + right))
-    assert close(on_left, on_right / ratio)
 
 
 @pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())

@@ -62,6 +62,7 @@ def test_the_sums_are_the_derived_formulas(name: str) -> None:
         assert max(gaps) < mpmath.mpf(10) ** -42, formula
 
 
+@pytest.mark.enough("flat_rounded", "rounded_wedge")
 @pytest.mark.parametrize("name", BODIES)
 def test_no_term_of_what_a_contact_carries_is_negative(name: str) -> None:
     parts = parts_of(sheet_of(name).frame)

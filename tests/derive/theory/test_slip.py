@@ -1,5 +1,6 @@
 """Series of the slip zones: their integrals by quadrature, their terms put back, theory's form."""
 
+from collections.abc import Callable
 from itertools import product
 
 import mpmath
@@ -12,10 +13,18 @@ from derive.theory import slip
 from derive.theory.edges import Edge, pressure_series
 from generated.runtime.slip import series as runtime
 from tests.derive.bodies import sheet
-from tests.derive.partial_slip import integral
 
 d, stuck = symbols("d stuck", positive=True)
 SERIES = (mpf(2), mpf(-3) / 4, mpf(5) / 8)
+
+
+def integral(integrand: Callable[[mpf], mpf], length: mpf) -> mpf:
+    """int_0^length integrand(y)/sqrt(y) dy, by y = length sin(t)**2."""
+
+    def along(t: mpf) -> mpf:
+        return 2 * mpmath.sqrt(length) * mpmath.cos(t) * integrand(length * mpmath.sin(t) ** 2)
+
+    return mpmath.quad(along, [0, mpmath.pi / 2])
 
 
 def pressure(s: mpf, terms: int) -> mpf:

@@ -13,8 +13,8 @@ from derive.proof.balls import Ball, ball, number
 from derive.proof.points import numeric
 from derive.proof.values import program
 from derive.symbols import x
+from tests.derive.bodies import of_library as sheet_of
 from tests.measure.accuracy.reference import function_of as in_mpmath
-from tests.measure.accuracy.reference import sheet_of
 
 Formula = Callable[..., mpf]
 """By keywords; what it does not hold is left aside."""

@@ -12,10 +12,11 @@ from mpmath import mpf
 
 from derive.codegen.contract import CONTRACT
 from generated.runtime.types import Regime
+from tests.derive.bodies import of_library as sheet_of
 from tests.measure.accuracy import partial_slip
 from tests.measure.accuracy.definitions import formula
 from tests.measure.accuracy.partial_slip import digits_of
-from tests.measure.accuracy.reference import Answer, Given, Problem, function_of, sheet_of
+from tests.measure.accuracy.reference import Answer, Given, Problem, function_of
 from tests.measure.accuracy.regions import BULK, Placed, Regions, Sample, contacts_of
 
 BOUNDS = {True: 1e-13, False: 1e-12}

@@ -14,9 +14,10 @@ from sympy import Symbol, symbols
 
 from derive.proof.balls import Ball, ball
 from derive.theory import slip as theory
+from tests.derive.bodies import of_library as sheet_of
 from tests.measure.accuracy.definitions import formula, kinks_of, pressure_along
 from tests.measure.accuracy.quadrature import Integrand, integrals
-from tests.measure.accuracy.reference import Conditions, Given, Problem, function_of, sheet_of
+from tests.measure.accuracy.reference import Conditions, Given, Problem, function_of
 
 AT_ENDS = (-0.5, 0.5)
 """How p/w grows where slip begins, and how it falls at the edge."""
@@ -54,8 +55,8 @@ def patch(body: str) -> Conditions:
     return off
 
 
-def between(body: str) -> Conditions:
-    """Large tension, both conditions of the singular integral equation:
+def between(body: str, large: bool = True) -> Conditions:
+    """Both conditions of the singular integral equation, of large tension or of moderate:
 
     int_slip r/w dxi = -pi dsigma/4,  int_slip r (xi - mid)/w dxi = dQ,  r = kappa f (p1 + p2),
 
@@ -67,7 +68,7 @@ def between(body: str) -> Conditions:
         strain, force = mpmath.pi * given["dsigma"] / 4, -given["dQ"]
         for end in ends_of(given):
             for side in (-1, 1):
-                kappa = -side if given["dsigma"] > 0 else side
+                kappa = (-side if given["dsigma"] > 0 else side) if large else 1
                 by_strain, by_force = _over_slip(body, end, m, n, side)
                 strain += kappa * given["f"] * side * by_strain
                 force += kappa * given["f"] * by_force

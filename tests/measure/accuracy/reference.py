@@ -8,9 +8,6 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, lambdify
 
-from derive.body.library import load_geometry
-from derive.sheet.derivation import derive_sheet
-from derive.sheet.formulas import FormulaSheet
 from derive.symbols import M, P, e
 
 Given = Mapping[str, mpf]
@@ -22,12 +19,6 @@ Told = Callable[[Sequence[mpf], Given], Sequence[mpf]]
 
 _FAR, _SLOW = 1e-6, 1e-2
 """A step longer than this, or one that has not shrunk by so much, asks for new rates."""
-
-
-@cache
-def sheet_of(body: str) -> FormulaSheet:
-    """The derived sheet of a body."""
-    return derive_sheet(load_geometry(body))
 
 
 @cache
