@@ -115,12 +115,12 @@ def _axes(ndim: int) -> tuple[int, ...]:
 
 
 def _empty(value: Any, instants: int) -> Any:
-    """An empty array in place of the value; time keeps its length unless `instants` is 0."""
+    """An empty array in place of the value; time has `instants` unless they are 0."""
     if not _is_array(value):
         return value
     shape = [0] * value.ndim
     if instants:
-        shape = [0] * max(value.ndim - 1, 1) + [1 if value.shape[-1] == 1 else instants]
+        shape = [0] * max(value.ndim - 1, 1) + [instants]
     return np.zeros_like(value._meta if is_lazy(value) else value, shape=tuple(shape))
 
 

@@ -118,12 +118,10 @@ def _checked(slope: Any, own: Any, target: Any, a: float, c: float, now: Any) ->
 
     Rounding of the edges changes the load; rounding of the given place or tilt moves the edges.
     """
-    load, moment, tilt, left, right = now
+    load, _, tilt, left, right = now
     h = a + c
     first, second = _misses(slope, own, target, a, c, now)
     if not (LEAST < h < MOST and 0 < left < math.inf and 0 < right < math.inf):
-        return math.inf, math.nan
-    if not (abs(first) < math.inf and abs(moment) + abs(tilt) < math.inf):
         return math.inf, math.nan
     edges = _load_rounding(a, c, now)
     given = EPS * (abs(target.tilt) * h / load if target.held else abs(target.place) / h)
@@ -328,7 +326,7 @@ def solve(
         target = Target(load, place, tilt, held)
         a, c = _found(state, slope, own, points, target)
         error, tilt = _checked(slope, own, target, a, c, state(a, c, own))
-        if error < WORST_RTOL and tilt == tilt:
+        if error < WORST_RTOL and abs(tilt) < math.inf:
             return a, c, tilt
     return math.nan, math.nan, math.nan
 

@@ -36,9 +36,6 @@ MAX_LEVEL = 8
 QUADRATURE_RTOL = 1e-12
 """If two sums agree to within this, the later one is exact to rounding."""
 
-CLOSEST = 5e-324
-"""The smallest distance from a break at which the curve is evaluated, in metres."""
-
 
 class Curve(NamedTuple):
     """A body given by its curve, which is cut into pieces at its breaks (at least one).
@@ -103,9 +100,9 @@ def _part(breaks: Any, piece: int, low: float, high: float, h: float, sense: flo
         right = breaks[piece]
         end, ahead = max(high - right, 0.0), max(right - high, 0.0)
         length = min(length, right - low)
-    if sense < 0:
-        start, end, past, ahead = end, start, ahead, past
     length = max(length, 0.0)
+    if not sense > 0:
+        start, end, past, ahead = end, start, ahead, past
     return Part(piece, sense, length, past, ahead, length / h, start / h, end / h)
 
 
@@ -119,7 +116,7 @@ def _at(curve: Any, part: Any, q: float, rest: float, own: Any) -> tuple[float, 
     """
     before, behind = part.past + part.length * q, part.ahead + part.length * rest
     side = part.sense if before <= behind else -part.sense
-    t = max(min(before, behind), CLOSEST)
+    t = max(min(before, behind), NOTHING)
     slope, curvature, change = curve.beside(part.piece, side, t, own)
     along = part.extent * q
     start, end = max(part.start + along, NOTHING), max(part.end + part.extent * rest, NOTHING)
@@ -338,8 +335,8 @@ def _of_second_by_parts(node: Any, given: Any) -> tuple[float, ...]:
 @kernel
 def _is_smooth(curve: Any, i: int, own: Any) -> bool:
     """Whether g'' is continuous at a break, and neither zero nor infinite there."""
-    _, left, of_left = curve.beside(i, -1.0, CLOSEST, own)
-    _, right, of_right = curve.beside(i + 1, 1.0, CLOSEST, own)
+    _, left, of_left = curve.beside(i, -1.0, NOTHING, own)
+    _, right, of_right = curve.beside(i + 1, 1.0, NOTHING, own)
     return abs(left - right) + abs(of_left) + abs(of_right) < 1e-12 * (left + right)
 
 
@@ -363,7 +360,7 @@ def _second(curve: Any, a: float, c: float, own: Any, sense: float) -> float:
     origin, to_edge = 0.0, 1.0
     for i in range(breaks.size):
         A, B = (a + breaks[i]) / h, (c - breaks[i]) / h
-        if sense < 0:
+        if not sense > 0:
             A, B = B, A
         if A <= 0 or B <= 0:
             continue

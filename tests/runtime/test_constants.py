@@ -11,14 +11,25 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
+from itertools import pairwise
 from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
 
-from generated import edge, flat_sloped, full_stick, hertz, power, quartic, rounded_wedge
-from generated.runtime import segments
+from generated import (
+    edge,
+    flat_rounded,
+    flat_sloped,
+    full_stick,
+    hertz,
+    power,
+    quartic,
+    rounded_wedge,
+    wedge,
+)
+from generated.runtime import inverse, segments
 from generated.runtime.types import Contact, Regime
 from tests.edge.example import bonded
 from tests.reference.kernel import Surface
@@ -118,6 +129,29 @@ def contacts_carry_their_loads_or_are_nan() -> bool:
     return bool(np.nanmax(off) < 3e-5 and np.all(np.isfinite(off[P > 3e-6])))
 
 
+def a_load_that_no_contact_carries_has_none() -> bool:
+    """That of a cylinder, P = pi h**2/16, jumps by 1e-8 at h = 2, past the one that is sought."""
+
+    def state(a: float, c: float, own: Any) -> tuple[float, ...]:
+        h = a + c
+        load = math.pi * h**2 / 16 * (1 + 1e-8 * (h > 2))
+        return load, load * (a - c) / 2, (a - c) / 2, math.sqrt(h) / 2, math.sqrt(h) / 2
+
+    def slope(x: float, own: Any) -> tuple[float, float]:
+        return x, 1.0
+
+    none = np.zeros(0)
+    sought = LOAD * (1 + 5e-9), 0.0, False
+    a, c, _ = inverse.solve(state, slope, lambda own: none, none, *sought)
+    return math.isnan(a) and math.isnan(c)
+
+
+def a_tilt_that_hangs_on_its_own_rounding_has_no_contact() -> bool:
+    """A flank of slope phi, within 2e-14 phi of lying level: rounding is 1.1 % of the gap."""
+    tilt = 0.02 * (1 - 2e-14)
+    return math.isnan(rounded_wedge.contact_at_tilt(1e-21, tilt, E_star=1.0, phi=0.02, b=1e-3).a)
+
+
 def parts_keep_their_digits() -> bool:
     """The formula of end_pressure at 60 digits, for x outside of the part."""
     off = []
@@ -141,6 +175,21 @@ def integrals_agree_with_the_closed_form() -> bool:
     return bool(abs(found / hertz.load(a, c, **OWN) - 1) < 1e-13)
 
 
+def edges_beside_the_apex_keep_their_digits() -> bool:
+    """K_N = int g'' sqrt((c - s)/(a + s)) ds/(pi sqrt(h)) at 30 digits; a is 4e-9 of the width."""
+    a, k = 2.0**-28, 2.2399
+    with mpmath.workdps(30):
+        h = 1 + mpmath.mpf(a)
+
+        def integrand(s: Any) -> Any:
+            return (k - 1) * abs(s) ** (mpmath.mpf(k) - 2) * mpmath.sqrt((1 - s) / (a + s))
+
+        parts = (mpmath.quad(integrand, part, method="tanh-sinh") for part in ([-a, 0], [0, a, 1]))
+        true = sum(parts) / (mpmath.pi * mpmath.sqrt(h))
+        found = power.K_N(a, 1.0, E_star=1.0, L=1.0, k=k).left
+        return bool(abs(found / true - 1) < 3e-14)
+
+
 # ---------------------------------------------------------------- cycles
 
 
@@ -154,6 +203,75 @@ def large_zones_are_found() -> bool:
     one, two = _zone(1.0, 0.0, 0.4), _zone(2.0, 0.0, 0.8)
     same = max(abs(one.m - one.n), abs(two.m - 2 * one.m), abs(two.n - 2 * one.n))
     return bool(one.regime == two.regime == Regime.LARGE and same < 1e-13)
+
+
+def a_rule_takes_a_root_at_the_end() -> bool:
+    """int dy/sqrt(y) over (0, 1) is 2."""
+    quadrature = import_module("generated.runtime.slip.quadrature")
+    y, weight = quadrature.double_exponential(0.075)
+    return bool(abs(np.sum(weight / np.sqrt(y)) / 2 - 1) < 1e-14)
+
+
+def _off_conditions(body: Any, own: Any, here: Contact, dQ: float, dsigma: float) -> float:
+    """How far a zone of large tension is from both of its conditions (bounded.py), relative to the
+    friction; the slip zones are cut at the body's kinks, and take a rule of their own."""
+    quadrature = import_module("generated.runtime.slip.quadrature")
+    q, weight = quadrature.double_exponential(0.01)
+    m, n, regime = body.stick_zone(here, here, dQ, dsigma, f=F, E_star=1.0, **own)
+    stuck, sense, sums = m + n, np.sign(dsigma), np.zeros(2)
+    for k, (side, start, end) in enumerate(((-1, m, here.a), (1, n, here.c))):
+        kinks = [0.0, *sorted(y for y in (1 - start, -1 - start) if 0 < y < end - start)]
+        for low, high in pairwise([*kinks, end - start]):
+            y = low + (high - low) * q
+            p = body.pressure(side * (start + y), *here[:2], E_star=1.0, **own)
+            force = -side * sense * 2 * F * p * weight * (high - low)
+            sums[k] += np.sum(force * np.sqrt((stuck + y) / y))
+            sums[1 - k] += np.sum(force * np.sqrt(y / (stuck + y)))
+    by_tension = math.pi * stuck * dsigma / 8
+    off = sums - [dQ + by_tension, dQ - by_tension]
+    assert regime == Regime.LARGE
+    return float(np.max(np.abs(off)) / (F * body.load(*here[:2], E_star=1.0, **own)))
+
+
+def zones_of_a_cylinder_meet_their_conditions() -> bool:
+    """R = 2, dQ = f P/2; tension is 2 and 3 times 8 dQ/(pi h)."""
+    off = []
+    for a, c, pull in ((1.5, 1.25, 2.0), (0.5, 2.0, -3.0)):
+        dQ = F / 2 * float(hertz.load(a, c, E_star=1.0, R=2.0))
+        dsigma = pull * 8 * dQ / (math.pi * (a + c))
+        off.append(_off_conditions(hertz, {"R": 2.0}, Contact(a, c, 0.0), dQ, dsigma))
+    return max(off) < 3e-15
+
+
+def zones_with_a_kink_near_the_edge_meet_their_conditions() -> bool:
+    """A punch with a flat [-1, 1]: the edge on the left is 1.6e-3 of the width from the kink."""
+    here = Contact(1.004159798891837, 1.6519654071285617, 0.0)
+    loads = 0.04000283951655925, 0.30121200179787033
+    return _off_conditions(flat_rounded, {"R": 1.0, "b": 1.0}, here, *loads) < 1e-14
+
+
+def zones_of_a_short_fillet_meet_their_conditions() -> bool:
+    """The same punch: kink and edge are within 2 % of the slip zone on the left."""
+    here = Contact(1.0127007211048615, 1.0690410952253155, 0.0)
+    own = {"R": 1.0, "b": 1.0}
+    return _off_conditions(flat_rounded, own, here, 0.0, 0.012435350026285619) < 1e-12
+
+
+def edges_that_hang_on_rounding_of_the_tilt_are_refused() -> bool:
+    """A wedge on one flank: P = E* phi sqrt(a c), and rounding of the tilt moves an edge by 7e-6 of
+    the width, EPS phi h/P."""
+    law, here = {"E_star": 1.0, "phi": 1.0}, Contact(1.0, 1e-21, 0.0)
+    dQ = 0.1 * F * wedge.load(here.a, here.c, **law)
+    return bool(wedge.stick_zone(here, here, dQ, 0.0, f=F, **law).regime == Regime.UNSOLVED)
+
+
+def a_fall_that_slips_farther_is_not_known() -> bool:
+    """Q to 0.36 f P and back, with a change in tension that moves the zone, [-0.8, 0.8], by 1e-9
+    and by 8e-9: a rounding, and more than one."""
+    here, Q = Contact(1.0, 1.0, 0.0), 0.36 * F * LOAD
+    fall = 2 * Q * (1 - 1e-15), 4 * F * np.array([1e-9, 8e-9])
+    found = hertz.shear(0.0, here, Q, 0.0, dQ=fall[0], dsigma=fall[1], **CYLINDER)
+    return bool(np.isfinite(found[0]) and np.isnan(found[1]))
 
 
 def series_are_solved() -> bool:
@@ -274,9 +392,19 @@ TABLE: dict[str, tuple[Any, Callable[[], bool]]] = {
     "inverse.LONGEST_STEP": (0.4, light_contacts_are_found),
     "inverse.LEAST": (1e-74, small_and_large_contacts_are_found),
     "inverse.MOST": (1e74, small_and_large_contacts_are_found),
+    "inverse.WORST_RTOL": (1e-8, a_load_that_no_contact_carries_has_none),
+    "inverse.MAX_EDGE_ROUNDING": (0.1, a_tilt_that_hangs_on_its_own_rounding_has_no_contact),
     "inverse.MAX_LOAD_ROUNDING": ((1e-5, 1e-3), contacts_carry_their_loads_or_are_nan),
     "segments._NEAR": ((0.05, 5.0), parts_keep_their_digits),
     "segments._WIDE": ((0.1, 10.0), parts_keep_their_digits),
+    "pieces.QUADRATURE_RTOL": (1e-11, edges_beside_the_apex_keep_their_digits),
+    "slip.quadrature.REACH": (0.4, a_rule_takes_a_root_at_the_end),
+    "slip.cycles.MAX_EDGE_ROUNDING": (1e-5, edges_that_hang_on_rounding_of_the_tilt_are_refused),
+    "slip.shear.ZONE_RTOL": (1e-8, a_fall_that_slips_farther_is_not_known),
+    "slip.bounded.NEWTON_RTOL": (1e-3, zones_of_a_cylinder_meet_their_conditions),
+    "slip.bounded.NEAREST": (1e-8, zones_of_a_cylinder_meet_their_conditions),
+    "slip.zone.RULE_RTOL": (2e-9, zones_with_a_kink_near_the_edge_meet_their_conditions),
+    "slip.bounded.MIN_GAP": (0.005, zones_of_a_short_fillet_meet_their_conditions),
     "slip.series.MAX_STEPS": (4, series_are_solved),
     "pieces.MAX_LEVEL": (0, integrals_agree_with_the_closed_form),
     "pieces.FARTHEST": (0, integrals_agree_with_the_closed_form),

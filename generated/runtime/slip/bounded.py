@@ -45,21 +45,22 @@ from .newton import MAX_STEPS, log_step, moved
 from .quadrature import RULES, slip_zone
 
 NEWTON_RTOL = 1e-4
-"""Newton's method ends after a step below this: the next one would be its square."""
+"""Newton's method ends after a step below this: the next one would be its square.  It has failed if
+even this fraction of a step does not reduce the error."""
 
 ROUGH_RTOL, RULE_RTOL = 1e-7, 2e-10
 """Slip zones whose relative change from one rule to the next is below this are exact by the finer
 rule, which takes one step of about this length.  The first number serves where no singularities are
 close to each other, because the error of a rule is then the square of that of the rule before."""
 
+ZONE_RTOL = 1e-9
+"""Ends of two stick zones that differ by less than this part of the contact width may be equal."""
+
 MIN_GAP = 0.05
 """Singularities of r that are closer to each other than this part of a slip zone are close."""
 
 LONGEST_STEP = 2.0
 """Longest step of Newton's method in the logarithm of a slip zone over the stick zone."""
-
-SHORTEST_PART = 1e-3
-"""Newton's method has failed if even this fraction of a step does not reduce the error."""
 
 NARROWEST = 1e-6
 """The narrowest stick zone that is sought in a bracket, relative to the width."""
@@ -155,13 +156,15 @@ def _newton(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -
     for _ in range(MAX_STEPS):
         next_left, next_right = moved(width, left, right, part * by_left, part * by_right)
         stuck = width - next_left - next_right
-        L, R, by_m, by_n = _sums(law, own, of, next_left, next_right, rule)
-        drive_left, drive_right = drives(of.cycle, stuck)
-        off_left, off_right = L - drive_left, R - drive_right
-        error = off_left * off_left + off_right * off_right
+        error = math.inf
+        if stuck > 0:  # rounding may leave nothing between long slip zones
+            L, R, by_m, by_n = _sums(law, own, of, next_left, next_right, rule)
+            drive_left, drive_right = drives(of.cycle, stuck)
+            off_left, off_right = L - drive_left, R - drive_right
+            error = off_left * off_left + off_right * off_right
         if not error < best:
             part /= 4
-            if part < SHORTEST_PART or best == math.inf:
+            if part < NEWTON_RTOL or best == math.inf:
                 break
             continue
         left, right, best = next_left, next_right, error
@@ -225,7 +228,7 @@ def _bracketed(law: Any, own: Any, of: Any, rule: int) -> Any:
 def _is_clear(law: Any, own: Any, cycle: Any, side: float, start: float) -> bool:
     """Whether the singularities of r in and beside a slip zone are not close to each other: breaks
     of the body, the edges of both contacts, and the start of the zone."""
-    edge_1, edge_2 = (cycle.a_1, cycle.a_2) if side < 0 else (cycle.c_1, cycle.c_2)
+    edge_1, edge_2 = (cycle.c_1, cycle.c_2) if side > 0 else (cycle.a_1, cycle.a_2)
     length, breaks = max(edge_1, edge_2) - start, law.breaks(own)
     gap = MIN_GAP * length
     for at in breaks:

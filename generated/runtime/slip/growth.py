@@ -21,7 +21,7 @@ from typing import Any
 
 from ..kernels import kernel
 from ..types import Regime
-from .bounded import ROUGH_RTOL, change_between, slipping, zone_of
+from .bounded import ROUGH_RTOL, ZONE_RTOL, change_between, slipping, zone_of
 from .cycles import Cycle, advances, drives, ends_of, on_the_way
 from .quadrature import ROUGH, slip_zone
 
@@ -33,9 +33,6 @@ PLACES = 4
 
 FRICTION_RTOL = 1e-6
 """Allowance for rounding of the shear, relative to friction."""
-
-GROWTH_RTOL = 1e-9
-"""Allowance for rounding of the ends of a growing slip zone, relative to the width."""
 
 
 @kernel
@@ -178,7 +175,7 @@ def grown(law: Any, own: Any, of: Any, ends: Any, m: float, n: float, regime: An
 
     UNSOLVED if the stick zone of a part of the half-cycle is not found.
     """
-    small = GROWTH_RTOL * (of.a + of.c)
+    small = ZONE_RTOL * (of.a + of.c)
     for sense in (1.0, -1.0):
         last_m = last_n = math.inf
         for k in range(1, PARTS + 1):

@@ -110,7 +110,7 @@ def slip_zone(
     inner: its length in the smaller contact, from which a very short zone keeps its digits
     cut: one more point x to cut it at
     """
-    edge_1, edge_2 = (cycle.a_1, cycle.a_2) if side < 0 else (cycle.c_1, cycle.c_2)
+    edge_1, edge_2 = (cycle.c_1, cycle.c_2) if side > 0 else (cycle.a_1, cycle.a_2)
     start, length = min(edge_1, edge_2) - inner, inner + abs(edge_1 - edge_2)
     breaks = law.breaks(own)
     cuts = np.empty(breaks.size + 2)

@@ -40,26 +40,19 @@ import numpy as np
 from ..elementary import EPS
 from ..kernels import kernel, loop, opened
 from ..types import Array, Regime, StickZone
-from .bounded import change_between, slipping_in
+from .bounded import ZONE_RTOL, change_between, slipping_in
 from .cycles import cycle_of, is_steady
 from .quadrature import FINEST, pressures, slip_zone
-
-MIN_CORNER_DISTANCE = 1e-20
-"""Smallest distance between a point in the stick zone and a corner, relative to the zone's width; a
-rounding of the corner's place if that is larger."""
-
-ZONE_RTOL = 1e-9
-"""Ends of two stick zones that differ by less than this part of the contact width may be equal."""
-
 
 # ---------------------------------------------------------------- the change in shear
 
 
 @kernel
 def _beside_corner(law: Any, own: Any, x: float, m: float, n: float) -> float:
-    """x, moved inward off a corner in the stick zone: p is infinite at the corner, dq is not."""
+    """x, moved inward off a corner in the stick zone, by a rounding of the zone's width or of the
+    corner's place: p is infinite at the corner, dq is not."""
     for corner in law.breaks(own):
-        away = max(MIN_CORNER_DISTANCE * (m + n), EPS * abs(corner))
+        away = EPS * max(m + n, abs(corner))
         if abs(x - corner) < away:
             x = corner + (away if corner < (n - m) / 2 else -away)
     return x
