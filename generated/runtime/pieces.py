@@ -100,9 +100,9 @@ def _part(breaks: Any, piece: int, low: float, high: float, h: float, sense: flo
         right = breaks[piece]
         end, ahead = max(high - right, 0.0), max(right - high, 0.0)
         length = min(length, right - low)
-    length = max(length, 0.0)
-    if not sense > 0:
+    if sense < 0:
         start, end, past, ahead = end, start, ahead, past
+    length = max(length, 0.0)
     return Part(piece, sense, length, past, ahead, length / h, start / h, end / h)
 
 
@@ -360,7 +360,7 @@ def _second(curve: Any, a: float, c: float, own: Any, sense: float) -> float:
     origin, to_edge = 0.0, 1.0
     for i in range(breaks.size):
         A, B = (a + breaks[i]) / h, (c - breaks[i]) / h
-        if not sense > 0:
+        if sense < 0:
             A, B = B, A
         if A <= 0 or B <= 0:
             continue
