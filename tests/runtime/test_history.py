@@ -444,6 +444,13 @@ def test_what_is_refused(function, Q, given, kind, words):
         function(hertz, LOAD, 0.0, Q, 0.0, **given)
 
 
+@pytest.mark.parametrize("function", [history, steady_cycle])
+@pytest.mark.parametrize("f", [[0.5, np.nan, 0.5], [0.5, -1, 0.5], [np.nan, 0.5, 0.5]])
+def test_friction_that_is_invalid_at_one_instant_gives_nothing(function, f):
+    found = function(hertz, LOAD, 0.0, [0.0, 0.1, 0.0], 0.0, f=f, x=np.zeros(1))
+    assert np.all(np.isnan(found.m)) and np.all(np.isnan(found.q)) and np.all(found.regime == 0)
+
+
 def test_a_contact_that_rolls_in_from_far_away_is_told_but_not_its_shear():
     """P = 0 at M != 0: the load acts at -M/P, far away; then a, c by hand for e = -M/P."""
     found = history(hertz, [LOAD, 0.0, LOAD, LOAD], 0.1 * LOAD, [0.0, 0.0, 0.1, 0.0], 0.0)

@@ -104,12 +104,12 @@ def _answer(
     if any_lazy(numbers.values()):
         call = partial(_answer, kind, solve, places, least)
         return over_chunks(call, kind.__name__.lower(), numbers, (own,), _AXES[kind], places)
-    for name in constants:
-        value = np.atleast_1d(numbers[name])
-        if np.any((value != value[..., :1]) & ~np.isnan(value)):
-            raise ValueError(f"{name} must not change along the last axis, which is time")
     full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
-    held = {name: full[name][..., :1] for name in constants}
+    for name in constants:
+        if np.any(np.fmin.reduce(full[name], -1) < np.fmax.reduce(full[name], -1)):
+            raise ValueError(f"{name} must not change along the last axis, which is time")
+    # NaN at one instant is NaN at all of them
+    held = {name: np.min(full[name], axis=-1, keepdims=True) for name in constants}
     f, E_star = held.pop("f"), held.pop("E_star")
     with np.errstate(all="ignore"):
         return solve(_Cases(np.stack([full[k] for k in LOADS]) / E_star, f, E_star, held))
