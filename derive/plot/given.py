@@ -93,11 +93,13 @@ def positions_of(history: Any, x: Array) -> Array:
             f"the {x.size} positions of x; give a result of `history` for the same x"
         )
     a, c = history.a[:, None], history.c[:, None]
-    outside = np.minimum(x + a, c - x) < -ROUNDING * (a + c)
-    if np.any(outside & (np.abs(history.q) > 0)):
+    depth, known = np.minimum(x + a, c - x) / (a + c), np.isfinite(history.slip)
+    unlike = (depth < -ROUNDING) & (np.abs(history.q) > 0)
+    unlike |= (depth > ROUNDING) & ~known & np.any(known, axis=1, keepdims=True)
+    if np.any(unlike):
         raise ValueError(
-            "x is not the x of history, which has shear outside the contact at these positions; "
-            "give the same x to `history`"
+            "x is not the x of history, which has shear outside the contact at these positions, or "
+            "lacks slip inside it; give the same x to `history`"
         )
     return x
 

@@ -106,6 +106,7 @@ TWO = History(*(np.stack([v, v]) for v in WHOLE))
         *((TWO, X, "not a single History"), (WHOLE, X[:, None], "give one row of at least two")),
         *((WHOLE, X[::-1], "x must increase, but .* at index 1"), (WHOLE, "x", "x is 'x'")),
         *((WHOLE, X + 0.3 * EDGE, "x is not the x of"), (WHOLE, 1.3 * X, "x is not the x of")),
+        (WHOLE, 0.7 * X, "lacks slip inside it"),
         *((WHOLE, [X, X[:9]], "finite numbers"), (hertz.contact(P, 0.0, **STEEL), X, "History")),
     ],
 )
