@@ -17,6 +17,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import cache, update_wrapper, wraps
 from pathlib import Path
+from threading import RLock
 from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
@@ -174,11 +175,14 @@ if COMPILED:
 
     _SAID = _Said()
 
+    _ONE_THREAD = RLock()
+
     def _compiled(made: Any, signature: Any) -> Any:
-        """The function with one signature compiled, or loaded."""
-        with event.install_listener("numba:compile", _SAID):
-            made.compile(signature)
-        made.disable_compile()
+        """The function with one signature compiled, or loaded, by the first thread that needs it."""
+        with _ONE_THREAD, event.install_listener("numba:compile", _SAID):
+            if not made.signatures:
+                made.compile(signature)
+                made.disable_compile()
         return made
 
     class _Loop:

@@ -27,6 +27,7 @@ def times(slope):
 """
 
 SOLVER = """
+from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from .factor import times
 from .body import Body
@@ -59,12 +60,15 @@ def _breaks(own):
 
 _BODY = Body(__name__, _zero, _state, _slope, _series, _breaks)
 
-for each in (each_slope, each_pressure):
-    out = np.empty((1, 1))
-    each(_BODY.law, np.array([[3.0]]), np.array([[5.0]]), out)
-    print(out[0, 0])
+def main():
+    for each in (each_slope, each_pressure):
+        out = np.empty((2, 1, 1))
+        with ThreadPoolExecutor(2) as pool:
+            call = lambda one: each(_BODY.law, np.array([[3.0]]), np.array([[5.0]]), one)
+            list(pool.map(call, out))
+        print(*set(out.ravel().tolist()))
 """
-"""Prints 2 (5 x 3) = 30 and -1."""
+"""Prints 2 (5 x 3) = 30 and -1.  Two threads call each loop first: one of them compiles it."""
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +88,7 @@ def used(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def solved(path: Path) -> tuple[list[str], list[str]]:
     """What the package at a path prints, and the lines on standard error, which is a pipe."""
-    order = f"import sys; sys.path.insert(0, {str(path)!r}); import small.solver"
+    order = f"import sys; sys.path.insert(0, {str(path)!r}); import small.solver as s; s.main()"
     done = python(order, NUMBA_CACHE_DIR="")
     assert done.returncode == 0, done.stderr
     return done.stdout.split(), done.stderr.splitlines()
