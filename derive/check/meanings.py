@@ -131,13 +131,14 @@ class Standard:
     def of(self, names: Collection[str], given: Iterable[str] = ()) -> dict[str, DefinedSymbol]:
         """Return the meanings of those names that have a standard meaning, also p_at_b for p(b).
 
-        given: names with another meaning; if p(x) is one of them, p(b) has no standard meaning
+        given: names with another meaning; if p or p(x) is one of them, p(b) has no standard meaning
         """
-        found, others = dict[str, DefinedSymbol](), {_stem(name) for name in given}
+        found, others = dict[str, DefinedSymbol](), {*given}
         for name in sorted(names):
-            entry, at = self.symbols.get(_stem(name)), name.partition("_at_")[2]
+            stem, _, at = name.partition("_at_")
+            entry, is_free = self.symbols.get(stem), others.isdisjoint((name, stem, f"{stem}_at_x"))
             is_place = entry and "(x, " in entry.text and (at.isdigit() or at in names)
-            if entry and _stem(name) not in others and (is_place or not at):
+            if entry and is_free and (is_place or not at):
                 formula = re.sub(r"\bx\b", at or "x", entry.text)
                 found[name] = with_entries(entry, formula=formula)
         return found
@@ -145,10 +146,6 @@ class Standard:
 
 NONE = Standard({"E_star": "E_star", "f": "f"})
 """No standard meanings; our letters are those of every body."""
-
-
-def _stem(name: str) -> str:
-    return name.partition("_at_")[0]
 
 
 def standard(answers: Answers, geometry: Geometry, place: Place) -> Standard:

@@ -171,7 +171,9 @@ class Approach:
             if any(abs(place - end) <= _SAME * max(1, abs(end)) for end in ends):
                 continue  # it is approached from inside the range
             size = abs(place) if abs(place) > _SAME else mpf(1)
-            for sign in (1, -1):
+            low, high = ends or (place, place)
+            # a place beyond the range is approached from the side of the range
+            for sign in [1] * (place <= high) + [-1] * (place >= low):
                 yield f"zero {number}", False, [place + sign * size * step for step in steps]
         for end, sign in zip(ends, (1, -1), strict=False):
             if end != 0 or not variable.is_positive:

@@ -35,12 +35,21 @@ def demand_contact(name: str, state: Any, body: Any, law: dict[str, float]) -> N
     )
 
 
+def demand_numbers(**given: Any) -> None:
+    """Demand that each argument be one finite number."""
+    for name, value in given.items():
+        found = np.asarray(value)
+        if found.ndim or found.dtype.kind not in "iuf" or not np.isfinite(found):
+            raise ValueError(f"{name} is {value!r:.60}; give one finite number")
+
+
 def zone_of(
     body: Any, first: Any, second: Any, dQ: float, dsigma: float, mixed: bool, **law: float
 ) -> Any:
     """The stick zone of one half-cycle; what is no half-cycle is refused in the words of `why`."""
+    demand_numbers(dQ=dQ, dsigma=dsigma, **law)
     zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
-    if np.ndim(zone.regime) or zone.regime == NONE:
+    if np.ndim(zone.regime) == 0 and zone.regime == NONE:
         raise ValueError(body.why(first, second, dQ, dsigma, **law))
     for name, state in (("first", first), ("second", second)):
         demand_contact(name, state, body, law)

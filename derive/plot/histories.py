@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from derive.plot.given import (
     demand_friction,
     demand_labels,
+    demand_numbers,
     positions_of,
     times,
 )
@@ -29,6 +30,7 @@ def _bounds(
 ) -> tuple[Array, Array]:
     """The positions, and f p there at all instants; NaN at a corner, where p is infinite."""
     x = positions_of(history, x)
+    demand_numbers(f=f, **constants)
     bound = f * body.pressure(x, history.a[:, None], history.c[:, None], **constants)
     demand_friction(history, x, bound)
     return x, np.where(np.isfinite(bound), bound, np.nan)

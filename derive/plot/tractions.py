@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from derive.plot.given import demand_contact, demand_labels, zone_of
+from derive.plot.given import demand_contact, demand_labels, demand_numbers, zone_of
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, canvas
 from derive.plot.zones import AREAS, MIXED, key, regime_in_words, senses
@@ -73,6 +73,7 @@ def pressures(
         If a contact is not a single one, or the number of labels is wrong.
     """
     demand_labels(labels, len(states), "states")
+    demand_numbers(**constants)
     lines = []
     for i, state in enumerate(states):
         demand_contact(f"states[{i}]", state, body, constants)
@@ -216,6 +217,7 @@ def shear(
     if not isinstance(between, int) or between < 0:
         raise ValueError(f"between is {between!r}; give a whole number of states, 0 or more")
     law = {"f": f, **constants}
+    demand_numbers(Q=Q, sigma=sigma)
     zone_of(body, contact, contact, dQ, dsigma, mixed=False, **law)
     x = places(-float(contact.a), float(contact.c))
     bound = f * body.pressure(x, contact.a, contact.c, **constants)

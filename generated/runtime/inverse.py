@@ -118,10 +118,11 @@ def _checked(slope: Any, own: Any, target: Any, a: float, c: float, now: Any) ->
 
     Rounding of the edges changes the load; rounding of the given place or tilt moves the edges.
     """
-    load, _, tilt, left, right = now
+    load, moment, tilt, left, right = now
     h = a + c
     first, second = _misses(slope, own, target, a, c, now)
-    if not (LEAST < h < MOST and 0 < left < math.inf and 0 < right < math.inf):
+    exists = LEAST < h < MOST and abs(moment) < math.inf
+    if not (exists and 0 < left < math.inf and 0 < right < math.inf):
         return math.inf, math.nan
     edges = _load_rounding(a, c, now)
     given = EPS * (abs(target.tilt) * h / load if target.held else abs(target.place) / h)

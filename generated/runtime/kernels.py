@@ -178,7 +178,7 @@ if COMPILED:
     _ONE_THREAD = RLock()
 
     def _compiled(made: Any, signature: Any) -> Any:
-        """The function with one signature compiled, or loaded, by the first thread that needs it."""
+        """The function with one signature, compiled or loaded by the first thread that calls it."""
         with _ONE_THREAD, event.install_listener("numba:compile", _SAID):
             if not made.signatures:
                 made.compile(signature)
