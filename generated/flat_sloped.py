@@ -8,11 +8,6 @@ Results are NaN unless the constants of material and geometry are positive and t
 between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
 number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
 do not broadcast.
-
-The formulas below use these definitions:
-    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-    root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
-    kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
 """
 
 import numpy as np
@@ -62,10 +57,10 @@ def tilt(a: Values, c: Values, *, b: Values, phi: Values) -> Array:
         alpha = (phi*t_1 - phi*t_3)/pi
         t_1 = edge_angle(a - b, b + c)
         t_3 = edge_angle(-b + c, a + b)
+        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
-    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
-    symbols, see the module.
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
 
     Parameters
     ----------
@@ -104,7 +99,7 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
             b)*Max(0, -b + c))/2
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.  For symbols, see the module.
+    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.
 
     Parameters
     ----------
@@ -145,8 +140,7 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
             E_star*phi*sqrt(Max(0, a + b)*Max(0, -b + c))*(a - 2*b - c)/8
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.  For
-    symbols, see the module.
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.
 
     Parameters
     ----------
@@ -191,10 +185,10 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
             -b + x)/(2*pi) + E_star*phi*kink_logarithm((2*a + 2*x)*Max(0, b + c)/h, (2*c -
             2*x)*Max(0, a - b)/h, b + x)/(2*pi)
         h = a + c
+        kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
-    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
-    symbols, see the module.
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
 
     Parameters
     ----------
@@ -219,11 +213,11 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
+    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of x = -b [-]
+    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of x = b [-]
     h = a + c  # contact width [m]
     tan_1 = root_ratio(a - b, b + c)  # tangent of half the angle of x = -b [-]
-    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of x = -b [-]
     tan_2 = root_ratio(a + b, c - b)  # tangent of half the angle of x = b [-]
-    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of x = b [-]
     K_N_left = (E_star * phi / np.pi) * (cot_1 + cot_2) / np.sqrt(h)
     K_N_right = (E_star * phi / np.pi) * (tan_1 + tan_2) / np.sqrt(h)
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
@@ -235,17 +229,18 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
         K_N_left = E_star*phi*(cot_1 + cot_2)/(pi*sqrt(h))
         K_N_right = E_star*phi*(tan_1 + tan_2)/(pi*sqrt(h))
+        cot_1 = root_ratio(b + c, a - b)
+        cot_2 = root_ratio(-b + c, a + b)
         h = a + c
         tan_1 = root_ratio(a - b, b + c)
-        cot_1 = root_ratio(b + c, a - b)
         tan_2 = root_ratio(a + b, -b + c)
-        cot_2 = root_ratio(-b + c, a + b)
+        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
 
     K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
     of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
     at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
-    quadrature of the defining integral of g(x), at the right edge.  For symbols, see the module.
+    quadrature of the defining integral of g(x), at the right edge.
 
     Parameters
     ----------
@@ -270,11 +265,11 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
+    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of x = -b [-]
+    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of x = b [-]
     h = a + c  # contact width [m]
     tan_1 = root_ratio(a - b, b + c)  # tangent of half the angle of x = -b [-]
-    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of x = -b [-]
     tan_2 = root_ratio(a + b, c - b)  # tangent of half the angle of x = b [-]
-    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of x = b [-]
     L_N_left = (
         (E_star * phi / (6 * np.pi))
         * (cot_1 * (2 * cot_1**2 + 3) + cot_2 * (2 * cot_2**2 + 3))
@@ -294,17 +289,18 @@ def L_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
         L_N_left = E_star*phi*(cot_1*(2*cot_1**2 + 3) + cot_2*(2*cot_2**2 + 3))/(6*pi*h**(3/2))
         L_N_right = E_star*phi*(tan_1*(2*tan_1**2 + 3) + tan_2*(2*tan_2**2 + 3))/(6*pi*h**(3/2))
+        cot_1 = root_ratio(b + c, a - b)
+        cot_2 = root_ratio(-b + c, a + b)
         h = a + c
         tan_1 = root_ratio(a - b, b + c)
-        cot_1 = root_ratio(b + c, a - b)
         tan_2 = root_ratio(a + b, -b + c)
-        cot_2 = root_ratio(-b + c, a + b)
+        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
 
     L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
     of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
     left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
     Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
-    g(x), at the right edge.  For symbols, see the module.
+    g(x), at the right edge.
 
     Parameters
     ----------

@@ -9,25 +9,6 @@ Results are NaN unless the constants of material and geometry are positive and t
 between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
 number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
 do not broadcast.
-
-The formulas below use these definitions:
-    h = a + c
-    sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-    cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-    sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-    cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-    t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 + sin_1*sin_2)*(cos_1*sin_2 +
-        cos_2*sin_1))
-    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-    involute(t) = -t*cos(t) + sin(t)
-    part_area(t, across) = 2*across**2*sin(t) + t - sin(t)
-    part_arm(t, u_1, v_1, u_2, v_2) = 8*(u_1*u_2 - v_1*v_2)*(u_1**2*v_1**2 + u_1*u_2*v_1*v_2 +
-        u_2**2*v_2**2)*sin(t/2)
-    part_weight(t, far) = 2*far*sin(t/2) + t/2 - sin(t/2)*cos(t/2)
-    second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 + 2*sin(t/2)/far, far >
-        0), (0, True))
-    part_pressure(t, start, end, u_1, v_1, u_2, v_2, u, v) = end*log((u*v_2 + u_2*v)/Abs(u*v_2 -
-        u_2*v))/2 - start*log((u*v_1 + u_1*v)/Abs(u*v_1 - u_1*v))/2 + t*u*v/2
 """
 
 import numpy as np
@@ -69,31 +50,23 @@ __all__ += ["tension_threshold", "tilt", "why"]
 
 
 @shared
-def _angles(a: Array, c: Array, b: Array) -> tuple[Array, ...]:
-    """The shared symbols that are defined above, and whether such a contact exists."""
+def _tilt(a: Array, c: Array, b: Array, phi: Array) -> Array:
+    """Tilt at which the contact is [-a, c]."""
     h = a + c  # contact width [m]
-    # sine of half the angle of x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
     # cosine of half the angle of x = -b [-]
     cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # sine of half the angle of x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
     # cosine of half the angle of x = b [-]
     cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    # sine of half the angle of x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # sine of half the angle of x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     # angle of part 2 [-]
     t_2 = 2 * np.arctan2(
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
         h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
     )
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    return h, sin_1, cos_1, sin_2, cos_2, t_2, exists
-
-
-@shared
-def _tilt(a: Array, c: Array, b: Array, phi: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
-    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
-    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
     alpha = (
         t_1 * phi
@@ -101,6 +74,7 @@ def _tilt(a: Array, c: Array, b: Array, phi: Array) -> Array:
         - (phi / b) * h * (sin_1 * sin_2 - cos_1 * cos_2) * involute(t_2 / 2)
         - (phi / (2 * b)) * t_2 * (np.maximum(-a, -b) + np.minimum(b, c))
     ) / np.pi
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return where(exists, alpha, np.nan)
 
 
@@ -109,12 +83,20 @@ def tilt(a: Values, c: Values, *, b: Values, phi: Values) -> Array:
 
         alpha = (phi*t_1 - phi*t_3 - h*phi*(-cos_1*cos_2 + sin_1*sin_2)*involute(t_2/2)/b -
             phi*t_2*(Max(-a, -b) + Min(b, c))/(2*b))/pi
+        h = a + c
+        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
+        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
+        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
         t_1 = edge_angle(a - b, b + c)
+        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
+            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
         t_3 = edge_angle(-b + c, a + b)
+        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+        involute(t) = -t*cos(t) + sin(t)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
-    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
-    symbols, see the module.
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
 
     Parameters
     ----------
@@ -138,8 +120,22 @@ def tilt(a: Values, c: Values, *, b: Values, phi: Values) -> Array:
 @shared
 def _load(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c]."""
-    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
+    h = a + c  # contact width [m]
+    # cosine of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # cosine of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    # sine of half the angle of x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # sine of half the angle of x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(
+        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
+        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
+    )
     P = (E_star * phi / (16 * b)) * h**2 * part_area(t_2, cos_1 * sin_2 + cos_2 * sin_1)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return where(exists, P, np.nan)
 
 
@@ -147,9 +143,17 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
     """Normal load that makes the contact [-a, c].
 
         P = E_star*h**2*phi*part_area(t_2, cos_1*sin_2 + cos_2*sin_1)/(16*b)
+        h = a + c
+        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
+        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
+        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
+        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
+            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
+        part_area(t, across) = 2*across**2*sin(t) + t - sin(t)
 
     Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
-    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.  For symbols, see the module.
+    parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.
 
     Parameters
     ----------
@@ -174,7 +178,20 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
 @shared
 def _moment(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c]."""
-    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
+    h = a + c  # contact width [m]
+    # cosine of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # cosine of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    # sine of half the angle of x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # sine of half the angle of x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(
+        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
+        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
+    )
     M = (
         (E_star * phi / (32 * b))
         * h**2
@@ -183,6 +200,7 @@ def _moment(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
             - h * part_arm(t_2, sin_1, cos_1, sin_2, cos_2) / 3
         )
     )
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return where(exists, M, np.nan)
 
 
@@ -191,10 +209,19 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
 
         M = E_star*h**2*phi*(-h*part_arm(t_2, sin_1, cos_1, sin_2, cos_2)/3 + (a -
             c)*part_area(t_2, cos_1*sin_2 + cos_2*sin_1))/(32*b)
+        h = a + c
+        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
+        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
+        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
+        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
+            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
+        part_area(t, across) = 2*across**2*sin(t) + t - sin(t)
+        part_arm(t, u_1, v_1, u_2, v_2) = 8*(u_1*u_2 - v_1*v_2)*(u_1**2*v_1**2 + u_1*u_2*v_1*v_2
+            + u_2**2*v_2**2)*sin(t/2)
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
-    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.  For
-    symbols, see the module.
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.
 
     Parameters
     ----------
@@ -220,12 +247,26 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
-    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    h = a + c  # contact width [m]
+    # cosine of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # cosine of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
     cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
+    # sine of half the angle of x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # sine of half the angle of x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(
+        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
+        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
+    )
     p = (E_star * h * phi / (np.pi * b)) * part_pressure(
         t_2, -((b + x) / h), (b - x) / h, sin_1, cos_1, sin_2, cos_2, sin_x, cos_x
     )
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return where(exists, p, np.nan)
 
 
@@ -234,12 +275,21 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
 
         p = E_star*h*phi*part_pressure(t_2, -(b + x)/h, (b - x)/h, sin_1, cos_1, sin_2, cos_2,
             sin_x, cos_x)/(pi*b)
-        sin_x = sqrt(Max(0, a + x)/h)
+        h = a + c
+        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
+        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
         cos_x = sqrt(Max(0, c - x)/h)
+        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
+        sin_x = sqrt(Max(0, a + x)/h)
+        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
+            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
+        part_pressure(t, start, end, u_1, v_1, u_2, v_2, u, v) = end*log((u*v_2 +
+            u_2*v)/Abs(u*v_2 - u_2*v))/2 - start*log((u*v_1 + u_1*v)/Abs(u*v_1 - u_1*v))/2 +
+            t*u*v/2
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
-    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
-    symbols, see the module.
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
 
     Parameters
     ----------
@@ -265,9 +315,23 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
-    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
+    h = a + c  # contact width [m]
+    # cosine of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # cosine of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    # sine of half the angle of x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # sine of half the angle of x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(
+        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
+        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
+    )
     K_N_left = (E_star * phi / (np.pi * b)) * part_weight(t_2, cos_1 * cos_2) * np.sqrt(h)
     K_N_right = (E_star * phi / (np.pi * b)) * part_weight(t_2, sin_1 * sin_2) * np.sqrt(h)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
@@ -276,12 +340,20 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
         K_N_left = E_star*sqrt(h)*phi*part_weight(t_2, cos_1*cos_2)/(pi*b)
         K_N_right = E_star*sqrt(h)*phi*part_weight(t_2, sin_1*sin_2)/(pi*b)
+        h = a + c
+        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
+        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
+        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
+        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
+            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
+        part_weight(t, far) = 2*far*sin(t/2) + t/2 - sin(t/2)*cos(t/2)
 
     K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
     of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
     at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
-    quadrature of the defining integral of g(x), at the right edge.  For symbols, see the module.
+    quadrature of the defining integral of g(x), at the right edge.
 
     Parameters
     ----------
@@ -306,11 +378,24 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
-    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
-    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
-    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
+    h = a + c  # contact width [m]
+    # cosine of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # cosine of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
     k_left = where(a - b > 0, 0, where(a + b > 0, phi / b, 0))  # g'' at the left edge [1/m]
+    # sine of half the angle of x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # sine of half the angle of x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(
+        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
+        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
+    )
+    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
     k_right = where(b - c < 0, 0, where(b + c > 0, phi / b, 0))  # g'' at the right edge [1/m]
+    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     L_N_left = (E_star / (3 * np.pi)) * (
         (phi / b - k_left) * second_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
         - k_left * second_term(t_3, 0, sin_2)
@@ -319,7 +404,7 @@ def _L_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
         (phi / b - k_right) * second_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
         - k_right * second_term(t_1, 0, cos_1)
     ) / np.sqrt(h) - (E_star / 4) * k_right / np.sqrt(h)
-    exists = exists & (b * phi > 0)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b * phi > 0)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
@@ -330,16 +415,26 @@ def L_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
             (-k_left + phi/b)*second_term(t_2, cos_1*cos_2, sin_1*sin_2))/(3*pi*sqrt(h))
         L_N_right = -E_star*k_right/(4*sqrt(h)) + E_star*(-k_right*second_term(t_1, 0, cos_1) +
             (-k_right + phi/b)*second_term(t_2, sin_1*sin_2, cos_1*cos_2))/(3*pi*sqrt(h))
-        t_1 = edge_angle(a - b, b + c)
-        t_3 = edge_angle(-b + c, a + b)
+        h = a + c
+        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
+        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
         k_left = Piecewise((0, a - b > 0), (phi/b, a + b > 0), (0, True))
+        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
+        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
+            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
+        t_3 = edge_angle(-b + c, a + b)
         k_right = Piecewise((0, b - c < 0), (phi/b, b + c > 0), (0, True))
+        t_1 = edge_angle(a - b, b + c)
+        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+        second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
+            2*sin(t/2)/far, far > 0), (0, True))
 
     L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
     of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
     left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
     Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
-    g(x), at the right edge.  For symbols, see the module.
+    g(x), at the right edge.
 
     Parameters
     ----------

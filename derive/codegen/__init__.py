@@ -1,9 +1,9 @@
 """Turns proven formulas into NumPy code, and closed formulas into code for other languages.
 
-plan      chooses how each function is evaluated: formula, sum over parts, quadrature or solver
+plan      chooses how each function is evaluated: formula, quadrature or solver
 program   the steps and outputs of a function, before they are printed as text
-rewrite   rules for closed formulas in floating point; results are compared with the source
-parts     functions of kinked polynomial bodies as sums over the parts of a contact
+rewrite   closed formulas for floating point: sums over parts of a contact, or rules; compared with
+          the source
 printer   SymPy -> NumPy source
 contract  the functions that every module has
 function  the text of one function that has a formula

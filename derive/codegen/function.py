@@ -12,21 +12,22 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import mpmath
-from sympy import And, Gt, Lt, Min, Or, S, Symbol
+from sympy import And, Expr, Gt, Lt, Min, Or, Piecewise, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
 from derive.codegen.example import example_of
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import LEAST, MOST, Program
-from derive.codegen.rewrite import prove_equal, stable_program
+from derive.codegen.rewrite import prove_equal, stable_program, summed_program
 from derive.command.errors import NotProven
 from derive.proof.points import contacts, loads, numeric
 from derive.proof.verdict import Proof, Verdict
 from derive.reading.units import Dimension, dimension_of
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
-from derive.symbols import QUANTITIES, P, a, c, h, w, x
+from derive.symbols import QUANTITIES, M, P, a, c, e, h, w, x
+from derive.theory.segments import definitions_of
 
 LINE = 100
 
@@ -60,7 +61,11 @@ class FunctionText:
     def _made(self) -> Program:
         """The program of the function; raises NotProven unless it agrees with the sheet."""
         sheet, function = self.sheet, self.function
-        program = stable_program(sheet, self.outputs, self.example)
+        program = (
+            summed_program(sheet, function.fields)
+            if self._is_summed
+            else stable_program(sheet, self.outputs, self.example)
+        )
         source = {name: sheet.frame.flat(expr) for name, expr in self.outputs.items()}
         inverse = P in function.arguments
         points = loads(sheet, sheet[function.formulas[0]]) if inverse else contacts(sheet)
@@ -68,6 +73,11 @@ class FunctionText:
         if not proof.holds:
             raise NotProven(f"{function.name} of {sheet.geometry.name!r}: {proof}")
         return program
+
+    @property
+    def _is_summed(self) -> bool:
+        """Whether sums over the parts of a contact are evaluated in place of the formulas."""
+        return all(self.sheet[name].computed is not None for name in self.function.formulas)
 
     @property
     def text(self) -> str:
@@ -107,11 +117,8 @@ class FunctionText:
         if x in arguments and _is_drawn_in(self.sheet):
             yield "    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]"
         printer = printer_of(self.program, {x} if x in arguments else {*arguments})
-        yield from self._steps(printer)
-        yield from self._ending({n: printer.doprint(e) for n, e in self.program.outputs.items()})
-
-    def _steps(self, printer: NumPyPrinter) -> Iterator[str]:
         yield from step_lines(self.sheet, self.program, printer)
+        yield from self._ending({n: printer.doprint(e) for n, e in self.program.outputs.items()})
 
     def _ending(self, values: dict[str, str]) -> Iterator[str]:
         """Code that names the results and returns them, with NaN where no such state exists."""
@@ -141,11 +148,15 @@ class FunctionText:
     def _further_checks(self) -> Iterator[str]:
         """Checks of arguments whose NaN would not reach the result.
 
-        At a corner `fmax` replaces 0/0 by zero, and so a NaN in x, too.
+        At a corner `fmax` replaces 0/0 by zero, and so a NaN in x, too.  A formula with pieces uses
+        the parameters of one.
         """
         corners = (k for k in self.sheet.frame.kinks if k.kink.is_corner)
         if self.function.name == "pressure" and any(corners):
             yield "x == x"
+        own = [str(q.symbol) for q in self.sheet.geometry.parameters]
+        if self._is_summed and len(own) > 1 and any(e.has(Piecewise) for e in self.program.exprs):
+            yield f"{' * '.join(own)} > 0"
 
     # ------------------------------------------------------------------ docstring
 
@@ -165,15 +176,21 @@ class FunctionText:
 
     @property
     def _equations(self) -> Iterator[str]:
-        symbols: set[Symbol] = set()
-        for name in self.function.formulas:
-            formula, shown = self.sheet[name], self.sheet.shown(name)
-            symbols |= shown.free_symbols
-            yield f"{formula.symbol} = {text_of(shown)}"
-        for symbol, definition in self.sheet.defined_in(*self.function.formulas).items():
+        """The formulas with the definitions of their symbols: the sums, if these are evaluated."""
+        sheet, names = self.sheet, self.function.formulas
+        if self._is_summed:
+            shown = [*self.program.outputs.values()]
+            defined: dict[Expr, Expr] = {step.symbol: step.expr for step in self.program.steps}
+            defined |= definitions_of(self.program.exprs)
+        else:
+            shown = [sheet.shown(name) for name in names]
+            defined = {**sheet.defined_in(*names)}
+            if any(str(symbol) == "e" for expr in shown for symbol in expr.free_symbols):
+                defined[e] = M / P
+        for name, expr in zip(names, shown, strict=True):
+            yield f"{sheet[name].symbol} = {text_of(expr)}"
+        for symbol, definition in defined.items():
             yield f"{symbol} = {text_of(definition)}"
-        if any(str(symbol) == "e" for symbol in symbols):
-            yield "e = M/P"
 
     @property
     def _parameters(self) -> Iterator[str]:
@@ -308,21 +325,15 @@ def printer_of(program: Program, arguments: set[Symbol]) -> NumPyPrinter:
     return NumPyPrinter(varying)
 
 
-def step_lines(
-    sheet: FormulaSheet, program: Program, printer: NumPyPrinter, given: int = 0
-) -> Iterator[str]:
-    """The code of the steps of a program, each with its meaning and unit.
-
-    given: the number of leading steps that are already defined and are therefore not printed
-    """
+def step_lines(sheet: FormulaSheet, program: Program, printer: NumPyPrinter) -> Iterator[str]:
+    """The code of the steps of a program, each with its meaning and unit."""
     known: dict[Symbol, Dimension] = dict(sheet.dimensions)
-    for number, step in enumerate(program.steps):
+    for step in program.steps:
         dimension = dimension_of(step.expr, known) or Dimension()
         known[step.symbol] = dimension
         unit = "-" if str(dimension) == "1" else str(dimension)
         note = f"  # {step.meaning} [{unit}]" if step.meaning else ""
-        if number >= given:
-            yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
+        yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
 
 
 def _is_drawn_in(sheet: FormulaSheet) -> bool:

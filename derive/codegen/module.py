@@ -18,7 +18,6 @@ from derive.codegen.function import LINE, FunctionText, demands_of, inside_quote
 from derive.codegen.integrals import IntegratedText
 from derive.codegen.law import LawText
 from derive.codegen.mark import MARK
-from derive.codegen.parts import SummedText, angles_text, definitions_text
 from derive.codegen.plan import Route, carried_by, route_of
 from derive.codegen.publish import FULL_STICK
 from derive.codegen.solved import solved_functions
@@ -47,7 +46,6 @@ _HELPERS = {
 
 _TEXTS = {
     Route.FORMULA: FunctionText,
-    Route.PARTS: SummedText,
     Route.QUADRATURE: IntegratedText,
 }
 
@@ -87,12 +85,6 @@ def _heading(sheet: FormulaSheet, source: str) -> str:
     demands = demands_of(sheet)
     shapes = SHAPES.replace("are positive", f"are positive, {demands}") if demands else SHAPES
     paragraphs.append(textwrap.fill(shapes, LINE))
-    if carried_by(sheet) is Route.PARTS:
-        lines = [
-            textwrap.fill(line, LINE, initial_indent=" " * 4, subsequent_indent=" " * 8)
-            for line in definitions_text(sheet)
-        ]
-        paragraphs.append("\n".join(["The formulas below use these definitions:", *lines]))
     return "\n\n".join(paragraphs)
 
 
@@ -137,14 +129,11 @@ import numpy as np
 
 def _functions(sheet: FormulaSheet) -> Iterator[str]:
     """The text of every function that has a formula, and of the law of the body."""
-    carried = carried_by(sheet)
-    if carried is Route.PARTS and (angles := angles_text(sheet)):
-        yield angles
     for function in CONTRACT:
         route = route_of(sheet, function)
         if function.geometric and route is not Route.SOLVED:
             yield _TEXTS[route](sheet, function).text
-    made = CurveText if carried is Route.QUADRATURE else LawText
+    made = CurveText if carried_by(sheet) is Route.QUADRATURE else LawText
     yield made(sheet).text
 
 

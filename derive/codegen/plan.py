@@ -3,10 +3,9 @@
 In:  a FormulaSheet.
 Out: a Route for each function of the contract.
 
-    FORMULA     The closed formula, rewritten for floating point.
-    PARTS       The closed formula as a sum over the parts of the curve, with terms of one sign.
-                It is used where a contact can move off a kink, because the plain formula would
-                lose digits there, if the curve consists of straight lines and parabolas.
+    FORMULA     The closed formula, rewritten for floating point.  Where a contact can move off a
+                kink, the plain formula would lose digits; if the curve consists of straight lines
+                and parabolas, it is evaluated as a sum over its parts, with terms of one sign.
     QUADRATURE  One quadrature over g'', with an integrand of one sign.  It is used where there is
                 no closed formula, or one whose powers cancel.
     SOLVED      Newton's method on load and moment, or on load and tilt.
@@ -25,7 +24,6 @@ class Route(Enum):
     """A way to evaluate a function."""
 
     FORMULA = "formula"
-    PARTS = "parts"
     QUADRATURE = "quadrature"
     SOLVED = "solved"
 
@@ -41,7 +39,6 @@ def route_of(sheet: FormulaSheet, function: Function) -> Route:
 
 def carried_by(sheet: FormulaSheet) -> Route:
     """How load, moment, tilt, pressure and the coefficients of the edges are evaluated."""
-    if has_parts(sheet.frame):
-        return Route.PARTS
     slope = sheet.geometry.slope
-    return Route.FORMULA if slope.is_polynomial and not cancels(slope) else Route.QUADRATURE
+    keeps_digits = has_parts(sheet.frame) or (slope.is_polynomial and not cancels(slope))
+    return Route.FORMULA if keeps_digits else Route.QUADRATURE

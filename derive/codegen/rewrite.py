@@ -37,7 +37,7 @@ from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import M, P, a, alpha, c, e, h, w, x
 from derive.theory.frame import Frame
-from derive.theory.parts import Definition
+from derive.theory.parts import Definition, parts_of
 from derive.theory.segments import kink_logarithm, written_out
 
 _w = Symbol("w", nonnegative=True)
@@ -62,6 +62,13 @@ def stable_program(sheet: FormulaSheet, outputs: Mapping[str, Expr], example: Po
     )
     program = tangents_from_both_ends(program, example)
     return program.renamed(q.name for q in sheet.geometry.parameters).ordered()
+
+
+def summed_program(sheet: FormulaSheet, fields: Iterable[tuple[str, str | Symbol]]) -> Program:
+    """The formulas of `fields` as sums over the parts of a contact, whose terms have one sign."""
+    outputs = {field: sheet[str(name)].computed for field, name in fields}
+    program = Program(outputs, parts_of(sheet.frame).definitions)
+    return program.ordered().renamed(q.name for q in sheet.geometry.parameters)
 
 
 def prove_equal(program: Program, source: Mapping[str, Expr], points: Iterable[Point]) -> Proof:

@@ -123,16 +123,14 @@ def equations(docstring: str) -> dict[str, tuple[set[str], str]]:
 
 
 @pytest.mark.parametrize("body", ["flat_rounded", "rounded_wedge", "wedge_parabola", "wedge"])
-def test_every_symbol_that_a_docstring_prints_is_defined(body: str) -> None:
-    """There, or in the module's docstring."""
+def test_every_symbol_that_a_docstring_prints_is_defined_there(body: str) -> None:
     tree = ast.parse((GENERATED / f"{body}.py").read_text(encoding="utf-8"))
-    shared = equations(str(ast.get_docstring(tree)))
     named = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
     for node in (named[name] for name in ("tilt", "load", "moment", "pressure", "K_N", "L_N")):
         own = equations(str(ast.get_docstring(node)))
         assert own, node.name
         arguments = {argument.arg for argument in (*node.args.args, *node.args.kwonlyargs)}
-        known = {*shared, *own, *arguments, *OF_MATHEMATICS}
+        known = {*own, *arguments, *OF_MATHEMATICS}
         for letters, right in own.values():
             assert {*re.findall(r"[A-Za-z]\w*", right)} <= known | letters, node.name
 
