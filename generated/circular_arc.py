@@ -41,8 +41,7 @@ __all__ += ["tension_threshold", "tilt", "why"]
 def tilt(a: Values, c: Values, *, R: Values) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = -Integral(g'(xi)/w(xi), (xi, -a, c))/pi
-        w(xi) = sqrt((a + xi)*(c - xi))
+        alpha = -Integral(g'(xi)/sqrt((a + xi)*(c - xi)), (xi, -a, c))/pi
         g'(xi) = xi/sqrt(R**2 - xi**2)
 
     Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
@@ -70,8 +69,7 @@ def tilt(a: Values, c: Values, *, R: Values) -> Array:
 def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2
-        w(xi) = sqrt((a + xi)*(c - xi))
+        P = E_star*Integral(sqrt((a + xi)*(c - xi))*g''(xi), (xi, -a, c))/2
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Checked numerically to 49 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
@@ -99,9 +97,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
 def moment(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = -E_star*Integral((a - c + 2*xi)*g''(xi)*w(xi), (xi, -a, c))/8 + P*(a - c)/2
-        P = E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2
-        w(xi) = sqrt((a + xi)*(c - xi))
+        M = -E_star*Integral(sqrt((a + xi)*(c - xi))*(-a/2 + c/2 + xi)*g''(xi), (xi, -a, c))/4
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Checked numerically to 50 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
@@ -129,9 +125,10 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
 def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*Integral(g''(xi)*kernel(x, xi), (xi, -a, c))/pi
-        kernel(x, xi) = asinh(sqrt(Min((a + x)*(c - xi), (a + xi)*(c - x))/((a + c)*Abs(x -
-            xi))))
+        p = E_star*(Integral(g''(xi)*kernel(x, xi), (xi, -a, x)) + Integral(g''(xi)*kernel(x,
+            xi), (xi, x, c)))/pi
+        kernel(x, xi) = log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a +
+            x)*(c - xi)) - sqrt((a + xi)*(c - x)))))/2
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
@@ -160,10 +157,10 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> A
 def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*Integral(g''(xi)*r_left(xi), (xi, -a, c))/(pi*sqrt(a + c))
-        K_N_right = E_star*Integral(g''(xi)*r_right(xi), (xi, -a, c))/(pi*sqrt(a + c))
-        r_left(xi) = sqrt((c - xi)/(a + xi))
-        r_right(xi) = sqrt((a + xi)/(c - xi))
+        K_N_left = E_star*Integral(sqrt((a + xi)*(c - xi))*g''(xi)/(a + xi), (xi, -a,
+            c))/(pi*sqrt(a + c))
+        K_N_right = E_star*Integral(sqrt((a + xi)*(c - xi))*g''(xi)/(c - xi), (xi, -a,
+            c))/(pi*sqrt(a + c))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     K_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
@@ -192,15 +189,11 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
 def L_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
-        L_N_left = E_star*FinitePart(Integral((2*r_left(xi)**2 + 3)*g''(xi)*r_left(xi), (xi, -a,
-            c)))/(6*pi*(a + c)**(3/2))
-        L_N_right = E_star*FinitePart(Integral((2*r_right(xi)**2 + 3)*g''(xi)*r_right(xi), (xi,
-            -a, c)))/(6*pi*(a + c)**(3/2))
-        r_left(xi) = sqrt((c - xi)/(a + xi))
-        r_right(xi) = sqrt((a + xi)/(c - xi))
+        L_N_left = E_star*(-g''(-a)/(4*sqrt(a + c)) + Integral(sqrt((a + xi)*(c - xi))*(-g''(-a)
+            + g''(xi))*(3*a + 2*c + xi)/(a + xi)**2, (xi, -a, c))/(6*pi*(a + c)**(3/2)))
+        L_N_right = E_star*(-g''(c)/(4*sqrt(a + c)) + Integral(sqrt((a + xi)*(c - xi))*(-g''(c)
+            + g''(xi))*(2*a + 3*c - xi)/(c - xi)**2, (xi, -a, c))/(6*pi*(a + c)**(3/2)))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
-        FinitePart: the limit of the integral that ends at a distance d from the edge, without
-            its term in 1/sqrt(d), as d goes to 0; next to the edge it is integrated by parts
 
     L_N_left: checked numerically to 48 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), at the left edge.  L_N_right: checked numerically to 50 digits at 24 points.

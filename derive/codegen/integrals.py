@@ -1,51 +1,27 @@
 """Prints the functions of a body without closed formulas, and the integrals that they evaluate.
 
 In:  a FormulaSheet and a Function of the contract.
-Out: the text of the function; for its docstring, the integrals over g'' that
-     generated/runtime/pieces.py evaluates, and the definitions of the functions in these integrals.
-
-Each corner, where g' jumps, adds a term in which the jump of g' takes the place of g'' dxi.
+Out: the text of the function; for its docstring, the integrals of theory/superposition.py over g'',
+     which generated/runtime/pieces.py evaluates, and the definitions of g' and g''.
 """
 
-from collections.abc import Callable, Iterator, Mapping
-from functools import lru_cache
+from collections.abc import Callable, Iterator
+from types import SimpleNamespace
+from typing import Any
 
-from sympy import (
-    Abs,
-    Expr,
-    Function,
-    Integral,
-    Max,
-    Min,
-    Piecewise,
-    Rational,
-    S,
-    asinh,
-    factor,
-    pi,
-    simplify,
-    sqrt,
-)
+from sympy import Expr, Function, Piecewise, factor, oo, simplify
 
 from derive.body.piece import Piece
-from derive.body.profile import Kink, Slope
-from derive.codegen.function import FunctionText, by_name, local
+from derive.codegen.function import FunctionText, by_name
 from derive.codegen.program import Program
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
-from derive.symbols import E_star, P, a, c, h, x
-from derive.theory.segments import root_ratio
+from derive.symbols import x
+from derive.theory import superposition
+from derive.theory.edges import Edge
 from derive.theory.superposition import xi
 
-slope, curvature, w, kernel = map(Function, ("g'", "g''", "w", "kernel"))
-to_left, to_right = Function("r_left"), Function("r_right")
-
-FinitePart = Function("FinitePart")
-
-_IN_WORDS = (
-    "FinitePart: the limit of the integral that ends at a distance d from the edge, without its "
-    "term in 1/sqrt(d), as d goes to 0; next to the edge it is integrated by parts"
-)
+slope, curvature, kernel = map(Function, ("g'", "g''", "kernel"))
 
 
 class IntegratedText(FunctionText):
@@ -70,74 +46,43 @@ class IntegratedText(FunctionText):
         yield from lines_of(self.sheet, self.function.formulas)
 
 
-def formula_of(profile: Slope, name: str) -> Expr:
-    """The expression that is evaluated for a formula of the sheet.
-
-    >>> from derive.body.library import load_geometry
-    >>> formula_of(load_geometry("catenary").slope, "load")
-    E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2
-    """
-
-    def pressed(weight: Callable[[Expr], Expr], of: Callable[[Expr], Expr] = S) -> Expr:
-        """int g'' weight dxi, plus the terms of the corners."""
-        curved = of(Integral(curvature(xi) * weight(xi), (xi, -a, c)))
-        return curved + sum((k.step * weight(k.position) for k in _corners(profile)), S.Zero)
-
-    if name == "tilt":
-        return -Integral(slope(xi) / w(xi), (xi, -a, c)) / pi
-    if name == "load":
-        return E_star / 2 * pressed(w)
-    if name == "moment":
-        return (a - c) * P / 2 - E_star / 8 * pressed(lambda s: w(s) * (a - c + 2 * s))
-    if name == "pressure":
-        return E_star / pi * pressed(lambda s: kernel(x, s))
-    ratio = to_left if name.endswith("left") else to_right
-    if name.startswith("K_N"):
-        return E_star / (pi * sqrt(h)) * pressed(ratio)
-    finite = pressed(lambda s: ratio(s) * (3 + 2 * ratio(s) ** 2), FinitePart)
-    return E_star / (6 * pi * h ** Rational(3, 2)) * finite
-
-
 def lines_of(sheet: FormulaSheet, names: tuple[str, ...]) -> Iterator[str]:
-    """The formulas as they are printed, and the definitions of the functions in them."""
-    profile, own = sheet.geometry.slope, Function(local(sheet, "w"))  # a parameter may be named w
-    formulas = {sheet[name].symbol: formula_of(profile, name) for name in names}
-    if "moment" in names:
-        formulas[P] = formula_of(profile, "load")
+    """Formulas of the sheet as integrals over g'', and the definitions of what they contain.
+
+    >>> from derive.sheet.derivation import derive_law
+    >>> from derive.body.library import load_geometry
+    >>> for line in lines_of(derive_law(load_geometry("quartic")), ("load",)):
+    ...     print(line)
+    P = E_star*Integral(sqrt((a + xi)*(c - xi))*g''(xi), (xi, -a, c))/2
+    g''(xi) = 3*xi**2/L**3
+    """
+    formulas = {sheet[name].symbol: integral_of(sheet, name) for name in names}
     used = {node.func for expr in formulas.values() for node in expr.atoms(Function)}
-    defined = {f: d for f, d in definitions_of(profile).items() if f.func in used}
-    for left, right in (formulas | defined).items():
-        yield f"{text_of(left.replace(w, own))} = {text_of(right.replace(w, own))}"
-    if FinitePart in used:
-        yield _IN_WORDS
-
-
-def _corners(profile: Slope) -> tuple[Kink, ...]:
-    return tuple(k for k in profile.kinks if k.is_corner)
-
-
-@lru_cache(maxsize=2)
-def definitions_of(profile: Slope) -> Mapping[Expr, Expr]:
-    """The definitions of the functions; they are zero at a corner outside the contact."""
-    left, right = a + xi, c - xi
-    ratios = (right / left, left / right)
-    least = Min((a + x) * right, left * (c - x))
-    to_edges = [sqrt(ratio) for ratio in ratios]
-    if _corners(profile):
-        to_edges = [root_ratio.definition(*ends) for ends in ((right, left), (left, right))]
-        left, right, least = Max(0, left), Max(0, right), Max(0, least)
-    return {
-        w(xi): sqrt(left * right),
-        to_left(xi): to_edges[0],
-        to_right(xi): to_edges[1],
-        kernel(x, xi): asinh(sqrt(least / (h * Abs(x - xi)))),
-        slope(xi): _by_piece(profile, lambda piece: piece.slope),
-        curvature(xi): _by_piece(profile, lambda piece: piece.curvature),
+    pieces = sheet.geometry.slope.pieces
+    defined = {
+        kernel(x, xi): superposition.kernel / 2,
+        slope(xi): _by_piece(pieces, lambda piece: piece.slope),
+        curvature(xi): _by_piece(pieces, lambda piece: piece.curvature),
     }
+    held = {call: definition for call, definition in defined.items() if call.func in used}
+    for left, right in (formulas | held | sheet.frame.defined_in(*formulas.values())).items():
+        yield f"{left} = {text_of(right)}"
 
 
-def _by_piece(profile: Slope, of: Callable[[Piece], Expr]) -> Expr:
-    *others, last = profile.pieces
+def integral_of(sheet: FormulaSheet, name: str) -> Expr:
+    """A formula for a body whose curve is a single piece with corners."""
+    curve = SimpleNamespace(slope=slope(x), curvature=curvature(x), lower=-oo, upper=oo)
+    whole: Any = SimpleNamespace(slope=SimpleNamespace(pieces=[curve]), kinks=sheet.frame.kinks)
+    stem, _, side = name.rpartition("_")
+    of_edges = {"K_N": superposition.edge_coefficient, "L_N": superposition.second_coefficient}
+    if stem in of_edges:
+        return of_edges[stem](whole, Edge[side.upper()])
+    expr: Expr = getattr(superposition, name)(whole)
+    return expr.xreplace({superposition.kernel: 2 * kernel(x, xi)})
+
+
+def _by_piece(pieces: tuple[Piece, ...], of: Callable[[Piece], Expr]) -> Expr:
+    *others, last = pieces
     branches = [(_short(of(piece)), xi < piece.upper) for piece in others]
     return Piecewise(*branches, (_short(of(last)), True))
 

@@ -142,15 +142,7 @@ class FormulaSheet(Mapping[str, Formula]):
 
     def defined_in(self, *names: str) -> dict[Symbol, Expr]:
         """Definitions of the frame's symbols that the named formulas contain, as printed."""
-        held = set().union(*(self.shown(name).free_symbols for name in names))
-        definitions: dict[Symbol, Expr] = {}
-        for k in self.frame.kinks:
-            definitions |= {k.theta: k.angle} if k.theta in held else {}
-            definitions |= {k.w: k.root} if k.w in held else {}
-            definitions |= k.logarithm_in_words if k.L in held else {}
-        for root in self.frame.roots:
-            definitions |= root.definitions if held & {*root.definitions} else {}
-        return definitions
+        return self.frame.defined_in(*map(self.shown, names))
 
     def is_closed(self, name: str) -> bool:
         """Whether the sheet contains this formula and it is not an integral for quadrature."""

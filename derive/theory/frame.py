@@ -185,6 +185,18 @@ class Frame:
             defined |= {s: definition.xreplace(ends) for s, definition in words.items()}
         return defined
 
+    def defined_in(self, *exprs: Expr) -> dict[Symbol, Expr]:
+        """Definitions of the symbols of the frame that expressions contain, as printed."""
+        held = set().union(*(expr.free_symbols for expr in exprs))
+        found: dict[Symbol, Expr] = {}
+        for k in self.kinks:
+            found |= {k.theta: k.angle} if k.theta in held else {}
+            found |= {k.w: k.root} if k.w in held else {}
+            found |= k.logarithm_in_words if k.L in held else {}
+        for root in self.roots:
+            found |= root.definitions if held & {*root.definitions} else {}
+        return found
+
     def flat(self, expr: Expr) -> Expr:
         """`expr` with every symbol of the frame written out."""
         return expr.xreplace(self.definitions)

@@ -29,6 +29,11 @@ xi = Symbol("xi", real=True)
 root = sqrt((a + xi) * (c - xi))
 """w at xi."""
 
+_u, _v = sqrt((c - xi) * (a + x)), sqrt((a + xi) * (c - x))
+
+kernel = log(Abs((_u + _v) / (_u - _v)))
+"""2 L of a corner at xi."""
+
 
 def tilt(frame: Frame) -> Expr:
     """alpha from I_0 = 0."""
@@ -47,10 +52,8 @@ def moment(frame: Frame) -> Expr:
 
 def pressure(frame: Frame) -> Expr:
     """(E*/pi) int g'' L dxi, split at x, where L has a logarithmic singularity."""
-    u, v = sqrt((c - xi) * (a + x)), sqrt((a + xi) * (c - x))
-    kernel = log(Abs((u + v) / (u - v))) / 2
-    left = _pressed(frame, kernel, lambda k: k.L, high=x)
-    return E_star / pi * (left + _pressed(frame, kernel, lambda k: S.Zero, low=x))
+    left = _pressed(frame, kernel / 2, lambda k: k.L, high=x)
+    return E_star / pi * (left + _pressed(frame, kernel / 2, lambda k: S.Zero, low=x))
 
 
 def edge_coefficient(frame: Frame, edge: Edge) -> Expr:
