@@ -24,7 +24,7 @@ import numpy as np
 from mpmath import mpf
 
 from derive.codegen.contract import CONTRACT, Function
-from derive.codegen.publish import FULL_STICK, LIBRARY
+from derive.codegen.publish import FULL_STICK, LIBRARY, RUNTIME
 from derive.command.errors import NotProven
 from derive.proof.points import Point, contacts, named, numeric
 from derive.proof.verdict import WORKING
@@ -156,53 +156,46 @@ def _called(
 
 @contextmanager
 def imported(name: str, text: str, stuck: str) -> Iterator[ModuleType]:
-    """The module, imported in a package of its own that is removed again afterwards.
+    """The module, imported from a folder that is removed again afterwards.
 
     Its solvers run as plain Python: compiling them takes longer than running them a few times.
     """
+    package = _plain_package()
+    modules = [f"{_PLAIN}.{file}" for file in (name, FULL_STICK)]
     with tempfile.TemporaryDirectory() as folder:
-        package = f"_trial_of_{name}"
-        home = Path(folder) / package
-        home.mkdir()
-        for file, content in {"__init__": "", name: text, FULL_STICK: stuck}.items():
-            (home / f"{file}.py").write_text(content, encoding="utf-8")
-        sys.path.insert(0, folder)
+        for file, content in {name: text, FULL_STICK: stuck}.items():
+            (Path(folder) / f"{file}.py").write_text(content, encoding="utf-8")
+        package.__path__.insert(0, folder)
         importlib.invalidate_caches()
-        sys.modules |= {
-            f"{package}.runtime{module.__name__.removeprefix(_PLAIN)}": module
-            for module in _plain_runtime()
-        }
+        before = {module: sys.modules.pop(module, None) for module in modules}
         try:
-            yield importlib.import_module(f"{package}.{name}")
+            yield importlib.import_module(modules[0])
         finally:
-            sys.path.remove(folder)
-            for loaded in [m for m in sys.modules if m.split(".")[0] == package]:
-                del sys.modules[loaded]
+            package.__path__.remove(folder)
+            for module in modules:
+                del sys.modules[module]
+            sys.modules |= {module: held for module, held in before.items() if held}
 
 
-_PLAIN = "_plain_runtime"
-"""The name under which the runtime is imported as plain Python."""
+_PLAIN = "_plain_generated"
+"""The name under which the generated package is imported as plain Python."""
 
 
 @cache
-def _plain_runtime() -> list[ModuleType]:
-    """The modules of the runtime as plain Python, beside compiled ones that the user may have."""
-    spec = spec_from_file_location(_PLAIN, LIBRARY / "__init__.py")
+def _plain_package() -> ModuleType:
+    """The package whose runtime is plain Python, beside a compiled one that the user may have."""
+    spec = spec_from_file_location(_PLAIN, LIBRARY.parent / "__init__.py")
     assert spec and spec.loader
     package = sys.modules[_PLAIN] = module_from_spec(spec)
     before = os.environ.get(_SWITCH)
     os.environ[_SWITCH] = "1"
     try:
-        spec.loader.exec_module(package)
-        for name in ("cycle", "history.public", "pieces", "segments"):
-            importlib.import_module(f"{_PLAIN}.{name}")
+        importlib.import_module(f"{_PLAIN}.{RUNTIME}.kernels")
     finally:
-        if before is None:
-            del os.environ[_SWITCH]
-        else:
-            os.environ[_SWITCH] = before
-    return [module for name, module in sys.modules.items() if f"{name}.".startswith(f"{_PLAIN}.")]
+        del os.environ[_SWITCH]
+        os.environ |= {_SWITCH: before} if before is not None else {}
+    return package
 
 
 _SWITCH = "NUMBA_DISABLE_JIT"
-"""numba's own setting, which the runtime reads when it is imported."""
+"""numba's own setting, which runtime/kernels.py reads when it is imported."""

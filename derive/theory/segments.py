@@ -34,15 +34,18 @@ class Named(Function):
     letters: tuple[Symbol, ...] = ()
     """Arguments in its definition."""
 
-    @staticmethod
-    def definition(*_: Expr) -> Expr:
-        """The function in terms of elementary functions."""
-        raise NotImplementedError
+    definition: Expr = S.NaN
+    """The function of these letters in terms of elementary functions."""
+
+    @classmethod
+    def class_key(cls) -> tuple[int, int, str]:
+        """The place in the order of terms: behind SymPy's own functions."""
+        return 4, 10000, cls.__name__
 
     @property
     def written_out(self) -> Expr:
         """The value in terms of elementary functions."""
-        return self.definition(*self.args)
+        return self.definition.xreplace(dict(zip(self.letters, self.args, strict=True)))
 
     def _eval_is_extended_real(self) -> bool:
         return True
@@ -56,32 +59,27 @@ class Named(Function):
 
 _t, _near, _far, _across = symbols("t near far across", real=True)
 _sine, _cosine, _start, _end = symbols("u v start end", positive=True)
-_ends = symbols("u_1 v_1 u_2 v_2", positive=True)
+_ends = _u_1, _v_1, _u_2, _v_2 = symbols("u_1 v_1 u_2 v_2", positive=True)
 _A, _B, _d = symbols("A B d", real=True)
+
+
+def _level(p: Expr, q: Expr) -> Expr:
+    """L of two points, from products of a sine and a cosine."""
+    return log(Abs((p + q) / (p - q))) / 2
 
 
 class segment(Named):
     """t - sin(t) cos(t): the area of a segment of the unit circle with the angle 2 t."""
 
-    nargs = 1
     letters = (_t,)
-
-    @staticmethod
-    def definition(t: Expr) -> Expr:
-        """The definition in elementary functions."""
-        return t - sin(t) * cos(t)
+    definition = _t - sin(_t) * cos(_t)
 
 
 class involute(Named):
     """sin(t) - t cos(t): the second coordinate of the involute of the unit circle."""
 
-    nargs = 1
     letters = (_t,)
-
-    @staticmethod
-    def definition(t: Expr) -> Expr:
-        """The definition in elementary functions."""
-        return sin(t) - t * cos(t)
+    definition = sin(_t) - _t * cos(_t)
 
 
 class edge_angle(Named):
@@ -91,14 +89,9 @@ class edge_angle(Named):
     end from both edges.
     """
 
-    nargs = 2
     of_a_quotient = True
     letters = (_A, _B)
-
-    @staticmethod
-    def definition(within: Expr, beyond: Expr) -> Expr:
-        """The definition in elementary functions."""
-        return 2 * atan2(sqrt(Max(0, within)), sqrt(Max(0, beyond)))
+    definition = 2 * atan2(sqrt(Max(0, _A)), sqrt(Max(0, _B)))
 
 
 class part_area(Named):
@@ -107,28 +100,20 @@ class part_area(Named):
     across: sine of half the sum of the angles of its ends.
     """
 
-    nargs = 2
     letters = (_t, _across)
-
-    @staticmethod
-    def definition(t: Expr, across: Expr) -> Expr:
-        """The definition in elementary functions."""
-        return t - sin(t) + 2 * sin(t) * across**2
+    definition = _t - sin(_t) + 2 * sin(_t) * _across**2
 
 
 class part_arm(Named):
     """int w (s - mid) ds divided by h**3/24, for a part between two kinks."""
 
-    nargs = 5
     letters = (_t, *_ends)
-
-    @staticmethod
-    def definition(t: Expr, *halves: Expr) -> Expr:
-        """The definition in elementary functions."""
-        sine_1, cosine_1, sine_2, cosine_2 = halves
-        first, last = sine_1 * cosine_1, sine_2 * cosine_2
-        squares = first**2 + first * last + last**2
-        return 8 * sin(t / 2) * (sine_1 * sine_2 - cosine_1 * cosine_2) * squares
+    definition = (
+        8
+        * sin(_t / 2)
+        * (_u_1 * _u_2 - _v_1 * _v_2)
+        * ((_u_1 * _v_1) ** 2 + _u_1 * _v_1 * _u_2 * _v_2 + (_u_2 * _v_2) ** 2)
+    )
 
 
 class part_weight(Named):
@@ -137,90 +122,60 @@ class part_weight(Named):
     far: product of the cosines of half the angles of its ends; product of the sines for B.
     """
 
-    nargs = 2
     letters = (_t, _far)
-
-    @staticmethod
-    def definition(t: Expr, far: Expr) -> Expr:
-        """The definition in elementary functions."""
-        return segment(t / 2).written_out + 2 * sin(t / 2) * far
+    definition = segment(_t / 2).written_out + 2 * sin(_t / 2) * _far
 
 
 class root_ratio(Named):
     """sqrt(A/B), or zero unless both are positive."""
 
-    nargs = 2
     of_a_quotient = True
     letters = (_A, _B)
-
-    @staticmethod
-    def definition(above: Expr, below: Expr) -> Expr:
-        """The definition in elementary functions."""
-        return Piecewise((sqrt(above / below), (above > 0) & (below > 0)), (S.Zero, True))
+    definition = Piecewise((sqrt(_A / _B), (_A > 0) & (_B > 0)), (S.Zero, True))
 
 
 class kink_logarithm(Named):
     """log(1 + (sqrt(A B) + Min(A, B))/Abs(d)), or zero if A or B is negative.
 
-    A fourth argument is a lower bound on |d|.
+    The definition holds inside the contact; it contains no Min, which would compare its arguments.
     """
 
-    nargs = (3, 4)
     of_a_quotient = True
     letters = (_A, _B, _d)
-
-    @staticmethod
-    def definition(left: Expr, right: Expr, offset: Expr, *_: Expr) -> Expr:
-        """The definition inside the contact, where |d| is above its lower bound."""
-        nearer = (left + right - Abs(left - right)) / 2  # not Min, which compares its arguments
-        return log(1 + (sqrt(left * right) + nearer) / Abs(offset))
+    definition = log(1 + (sqrt(_A * _B) + (_A + _B - Abs(_A - _B)) / 2) / Abs(_d))
 
 
 class second_term(Named):
-    """int (sin(v)**2 + 2 tan(v)**2) dv over the half angles of a part; 0 if it ends at the edge."""
+    """int (sin(v)**2 + 2 tan(v)**2) dv over the half angles of a part; 0 if it ends at the edge.
 
-    nargs = 3
+    In its definition, sin(t/2)/far is the difference of the tangents.
+    """
+
     letters = (_t, _near, _far)
-
-    @staticmethod
-    def definition(t: Expr, near: Expr, far: Expr) -> Expr:
-        """The definition in elementary functions; `rise` is the difference of the tangents."""
-        rise = sin(t / 2) / far
-        found = 2 * rise - 3 * t / 4 + sin(t / 2) * (near - far) / 2
-        return Piecewise((found, far > 0), (S.Zero, True))
+    definition = Piecewise(
+        (2 * sin(_t / 2) / _far - 3 * _t / 4 + sin(_t / 2) * (_near - _far) / 2, _far > 0),
+        (S.Zero, True),
+    )
 
 
 class end_pressure(Named):
     """int L ds/h over a part between an edge and a kink; u and v are sine and cosine of x."""
 
-    nargs = 3
     letters = (_t, _sine, _cosine)
-
-    @staticmethod
-    def definition(t: Expr, sine: Expr, cosine: Expr) -> Expr:
-        """The definition in elementary functions."""
-        p, q = sin(t / 2) * cosine, cos(t / 2) * sine
-        return t / 2 * sine * cosine + (p**2 - q**2) * _level(p, q)
+    definition = _t / 2 * _sine * _cosine + (
+        (sin(_t / 2) * _cosine) ** 2 - (cos(_t / 2) * _sine) ** 2
+    ) * _level(sin(_t / 2) * _cosine, cos(_t / 2) * _sine)
 
 
 class part_pressure(Named):
     """int L ds/h over a part between two kinks; u, v: sines and cosines of the kinks and of x."""
 
-    nargs = 9
     letters = (_t, _start, _end, *_ends, _sine, _cosine)
-
-    @staticmethod
-    def definition(t: Expr, start: Expr, end: Expr, *halves: Expr) -> Expr:
-        """The definition in elementary functions; zero if the part is empty."""
-        sine_1, cosine_1, sine_2, cosine_2, sine, cosine = halves
-        first = _level(sine_1 * cosine, cosine_1 * sine)
-        second = _level(sine_2 * cosine, cosine_2 * sine)
-        return t / 2 * sine * cosine + end * second - start * first
-
-
-def _level(p: Expr, q: Expr) -> Expr:
-    """L of two points, from products of a sine and a cosine."""
-    return log(Abs((p + q) / (p - q))) / 2
+    definition = (
+        _t / 2 * _sine * _cosine
+        + _end * _level(_u_2 * _cosine, _v_2 * _sine)
+        - _start * _level(_u_1 * _cosine, _v_1 * _sine)
+    )
 
 
 FUNCTIONS = (
@@ -238,4 +193,4 @@ def written_out(expr: Expr) -> Expr:
 def definitions_of(exprs: Iterable[Expr]) -> dict[Expr, Expr]:
     """Definitions of the named functions that expressions contain."""
     held = {type(node) for expr in exprs for node in expr.atoms(Named)}
-    return {f(*f.letters): f.definition(*f.letters) for f in FUNCTIONS if f in held}
+    return {f(*f.letters): f.definition for f in FUNCTIONS if f in held}
