@@ -21,7 +21,7 @@ parameter m, not the modulus, and Pi(n|m) has 1 - n sin**2 in its denominator.
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Protocol
+from typing import ClassVar, Protocol
 
 from sympy import (
     Expr,
@@ -316,8 +316,8 @@ class Root:
         U_1 = int X/sqrt(q)   = -(A**2 - B**2)/(q_2 h**2) 2/sqrt(A B) (K(m) - (1 - n) Pi(n|m)),
         q_2 h**2/4 U_2        = 2 sqrt(A B) (E(m) - (1 - m) K(m)) - (A**2 - B**2)/4 U_1.
 
-    In terms of X, q = q0 + q1 X + q2 X**2.  The other integrals follow from the integrals of the
-    derivatives of sin(theta) X**k sqrt(q), or of sin(theta) (1, X) q**(1/2 - level), which vanish.
+    In terms of X, q = q0 + q1 X + q2 X**2.  The other integrals follow from these three, because
+    those of the derivatives of sin(theta) X**k q**(1/2 - level) vanish.
     """
 
     frame: RootFrame
@@ -339,11 +339,19 @@ class Root:
         field, elements = sfield([k for row in rows for k in row])
         inside, polynomials_in = iter(elements), PolyRing(X, field)
         q, *others = (polynomials_in.from_list([next(inside) for _ in row]) for row in rows)
-        table = _Table(q)
-        total = [field.zero] * 3
-        for (level, _), numerator in zip(numerators, others, strict=True):
-            total = _sum(total, table.integral(numerator, level))
-        return self._written([value.as_expr() for value in total])
+        left = sum(
+            (
+                _reduced(other, level, q)
+                for (level, _), other in zip(numerators, others, strict=True)
+            ),
+            polynomials_in.zero,
+        )
+        (_, q1, q2), (U_0, U_1, U_2) = (
+            [p.coeff(q.ring.gens[0] ** k) for k in range(3)] for p in (q, left)
+        )
+        ratio = q1 / q2
+        third = (U_1 - U_2 * ratio / 2) * ratio
+        return self._written([k.as_expr() for k in (2 * U_0 - third, 2 * U_2 / q2, third)])
 
     def _derivative(self, polynomial: Expr, order: int) -> Expr:
         """Numerator of the derivative of polynomial(x) times the term."""
@@ -362,66 +370,29 @@ class Root:
         return {second_kind * mean: second, K / mean: first, third_kind / mean: third}
 
 
-class _Table:
-    """Integrals over theta of polynomials in X over q**(1/2 + level), in a field of quotients.
+def _reduced(numerator: PolyElement, level: int, q: PolyElement) -> PolyElement:
+    """The polynomial of degree two with int polynomial/sqrt(q) = int numerator q**(-1/2 - level).
 
-    Integrals are lists of the coefficients of the functions that `Root` names.
+    Derivatives, whose integrals vanish, are subtracted, first until q divides the numerator.
     """
-
-    def __init__(self, q: PolyElement) -> None:
-        self.q, self.X, self.field = q, q.ring.gens[0], q.ring.domain
-
-    def integral(self, numerator: PolyElement, level: int) -> list[Any]:
-        """int numerator(X) q**(-1/2 - level)."""
-        if level == 0:
-            return self._combined(numerator, self._powers(len(numerator.to_dense())))
-        quotient, rest = numerator.div(self.q)
-        over = self._combined(rest, self._with_pole(level))
-        return _sum(over, self.integral(quotient, level - 1))
-
-    def _combined(self, polynomial: PolyElement, powers: list[list[Any]]) -> list[Any]:
-        """Sum of coefficients times integrals of powers of X."""
-        total = [self.field.zero] * 3
-        for k, integral in zip(reversed(polynomial.to_dense()), powers, strict=False):
-            total = _sum(total, integral, k)
-        return total
-
-    def _powers(self, count: int) -> list[list[Any]]:
-        """U_0, U_1, ..., up to `count` of them."""
-        q0, q1, q2 = (self.q.coeff(self.X**k) for k in range(3))
-        zero = self.field.zero
-        first, second = [self.field(2), zero, zero], [-q1 / q2, zero, q1 / q2]
-        found = [first, second, _sum([zero, 2 / q2, zero], second, -q1 / (2 * q2))]
-        for k in range(count - 3):
-            following = _sum([zero] * 3, found[k + 2], q1 * (2 * k + 3) / 2)
-            following = _sum(following, found[k + 1], (q0 - q2) * (k + 1))
-            following = _sum(following, found[k], -q1 * (2 * k + 1) / 2)
-            following = _sum(following, found[k - 1], -q0 * k) if k else following
-            found.append([-value / (q2 * (k + 2)) for value in following])
-        return found
-
-    def _with_pole(self, level: int) -> list[list[Any]]:
-        """int q**(-1/2 - level) and int X q**(-1/2 - level), from two integrals that are zero."""
-        rows, known = [], []
-        for r in (self.X**0, self.X):
-            quotient, rest = self._vanishing(r, level).div(self.q)
-            rows.append([rest.coeff(1), rest.coeff(self.X)])
-            known.append([-value for value in self.integral(quotient, level - 1)])
-        (p, q), (r, s) = rows
-        determinant = p * s - q * r
-        nothing = [self.field.zero] * 3
-        return [
-            _sum(_sum(nothing, known[0], s / determinant), known[1], -q / determinant),
-            _sum(_sum(nothing, known[1], p / determinant), known[0], -r / determinant),
-        ]
-
-    def _vanishing(self, r: PolyElement, level: int) -> PolyElement:
-        """Numerator over q**(1/2 + level) of the derivative of sin(theta) r(X) q**(1/2 - level)."""
-        square = 1 - self.X**2
-        own = (self.X * r - square * r.diff(self.X)) * self.q
-        return own + square * r * self.q.diff(self.X) * (2 * level - 1) / 2
+    X = q.ring.gens[0]
+    if level:
+        first, second = (_vanishing(r, level, q) for r in (X**0, X))
+        rests = [polynomial.rem(q) for polynomial in (first, second, numerator)]
+        (p, r, wanted), (s, t, wanted_of_X) = ([rest.coeff(X**k) for rest in rests] for k in (0, 1))
+        determinant = p * t - r * s
+        numerator -= first * ((wanted * t - wanted_of_X * r) / determinant)
+        numerator -= second * ((wanted_of_X * p - wanted * s) / determinant)
+        return _reduced(numerator.quo(q), level - 1, q)
+    while numerator.degree() > 2:
+        highest = _vanishing(X ** (numerator.degree() - 3), level, q)
+        numerator -= highest * (numerator.LC / highest.LC)
+    return numerator
 
 
-def _sum(first: list[Any], second: list[Any], times: Any = 1) -> list[Any]:
-    """first + times second, term by term."""
-    return [p + times * q for p, q in zip(first, second, strict=True)]
+def _vanishing(r: PolyElement, level: int, q: PolyElement) -> PolyElement:
+    """Numerator over q**(1/2 + level) of the derivative of sin(theta) r(X) q**(1/2 - level)."""
+    X = q.ring.gens[0]
+    square = 1 - X**2
+    own = (X * r - square * r.diff(X)) * q
+    return own + square * r * q.diff(X) * (2 * level - 1) / 2
