@@ -226,21 +226,19 @@ def _curve(piece: Array, side: Array, t: Array, own: Array) -> tuple[Array, ...]
         s_0 = R**2
         s_1 = t**2
         s_2 = s_0 - s_1
-        r_0 = np.sqrt(s_2)
         return (
-            -(t / r_0),
+            -(t / np.sqrt(s_2)),
             s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-            -(3 * s_0 * s_1 / (r_0 * s_2**2)),
+            -(3 * s_0 * s_1 / (s_2**2 * np.sqrt(s_2))),
         )
     if piece == 1 and side == 1:
         s_0 = R**2
         s_1 = t**2
         s_2 = s_0 - s_1
-        r_0 = np.sqrt(s_2)
         return (
-            t / r_0,
+            t / np.sqrt(s_2),
             s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-            3 * s_0 * s_1 / (r_0 * s_2**2),
+            3 * s_0 * s_1 / (s_2**2 * np.sqrt(s_2)),
         )
     return np.nan, np.nan, np.nan
 

@@ -232,16 +232,22 @@ def _curve(piece: Array, side: Array, t: Array, own: Array) -> tuple[Array, ...]
         s_0 = b**2
         s_1 = t**2
         s_2 = s_0 + s_1
-        r_0 = np.sqrt(s_2)
         s_3 = s_0 * phi
-        return -(phi * t / r_0), s_3 / (r_0 * s_2), 3 * s_1 * s_3 / (r_0 * s_2**2)
+        return (
+            -(phi * t / np.sqrt(s_2)),
+            s_3 / (s_2 * np.sqrt(s_2)),
+            3 * s_1 * s_3 / (s_2**2 * np.sqrt(s_2)),
+        )
     if piece == 1 and side == 1:
         s_0 = b**2
         s_1 = t**2
         s_2 = s_0 + s_1
-        r_0 = np.sqrt(s_2)
         s_3 = s_0 * phi
-        return phi * t / r_0, s_3 / (r_0 * s_2), -(3 * s_1 * s_3 / (r_0 * s_2**2))
+        return (
+            phi * t / np.sqrt(s_2),
+            s_3 / (s_2 * np.sqrt(s_2)),
+            -(3 * s_1 * s_3 / (s_2**2 * np.sqrt(s_2))),
+        )
     return np.nan, np.nan, np.nan
 
 

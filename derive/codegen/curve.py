@@ -26,7 +26,6 @@ from sympy import (
     numbered_symbols,
     powsimp,
     simplify,
-    sqrt,
     tanh,
 )
 
@@ -35,8 +34,6 @@ from derive.codegen.cuts import cuts_of
 from derive.codegen.law import BREAKS, PRESSURE, SERIES, STATE, LawText, as_float
 from derive.codegen.printer import NumPyPrinter
 from derive.symbols import x
-
-Steps = list[tuple[Symbol, Expr]]
 
 _t = Symbol("t", positive=True)
 """Distance from a break."""
@@ -122,7 +119,7 @@ def _branch(piece: Piece, position: Expr, sense: int) -> Iterator[str]:
     curvature = _shortest(lambda e: factor(simplify(e)), rates(slope), is_positive=True)
     change = _shortest(simplify, [_t * rate for rate in rates(curvature)])
     curves = [slope, curvature, change]
-    steps, values = _roots_once(*cse(curves, symbols=_named("s_", curves)))
+    steps, values = cse(curves, symbols=_named("s_", curves))
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
     for symbol, value in steps:
         yield f"        {symbol} = {printer.doprint(value)}"
@@ -174,33 +171,6 @@ def _named(stem: str, beside: list[Expr]) -> Iterator[Symbol]:
     """Numbered symbols whose names do not occur in the expressions `beside`."""
     taken = [Symbol(symbol.name) for symbol in Tuple(*beside).free_symbols]
     return iter(numbered_symbols(stem, exclude=taken))
-
-
-def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
-    """Half powers of t, or of a step, in terms of one square root, which becomes a step.
-
-    A root that occurs in only one power is left as it is.
-
-    >>> from sympy import Rational, symbols
-    >>> s, y = symbols("s y", positive=True)
-    >>> _roots_once([(s, _t + 1)], [y / sqrt(s), y / s ** Rational(3, 2)])
-    ([(s, t + 1), (r_0, sqrt(s))], [y/r_0, y/(r_0*s)])
-    """
-    powers: dict[Expr, set[Pow]] = {base: set() for base in (_t, *(name for name, _ in steps))}
-    for power in Tuple(*values, *(value for _, value in steps)).atoms(Pow):
-        if power.base in powers and power.exp.is_Rational and power.exp.q == 2:
-            powers[power.base].add(power)
-    named, shared, roots = _named("r_", values + [value for _, value in steps]), {}, {}
-    for base in [base for base, used in powers.items() if len(used) > 1]:
-        roots[base] = next(named)
-        for power in powers[base]:
-            sense = 1 if power.exp > 0 else -1
-            shared[power] = base ** (power.exp - S(sense) / 2) * roots[base] ** sense
-    results = [(roots[_t], sqrt(_t))] if _t in roots else []
-    for name, value in steps:
-        results.append((name, value.xreplace(shared)))
-        results += [(roots[name], sqrt(name))] if name in roots else []
-    return results, [value.xreplace(shared) for value in values]
 
 
 def _shortest(
