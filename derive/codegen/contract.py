@@ -5,7 +5,7 @@ This table is the contract with users: names, argument order and meanings are fi
 
 from dataclasses import dataclass, replace
 
-from sympy import Expr, Gt, Symbol
+from sympy import Expr, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.sheet.formulas import FormulaSheet
@@ -56,18 +56,12 @@ class Function:
         }
 
     def conditions(self, sheet: FormulaSheet) -> tuple[Boolean, ...]:
-        """The assumptions under which the state exists.
+        """The assumptions under which the state exists, besides constants that are positive.
 
         Conditions on x are left out, because the pressure outside the contact is zero.
         """
-        needed = dict.fromkeys(
-            condition
-            for name in self.formulas
-            for condition in sheet[name].conditions
-            if not condition.has(x)
-        )
-        positive = (Gt(symbol, 0, evaluate=False) for symbol in self.keywords(sheet))
-        return (*needed, *positive)
+        needed = (condition for name in self.formulas for condition in sheet[name].conditions)
+        return tuple(dict.fromkeys(condition for condition in needed if not condition.has(x)))
 
 
 def _edges(name: str, summary: str) -> Function:

@@ -82,23 +82,10 @@ class FunctionText:
     @property
     def text(self) -> str:
         """The whole function."""
-        return "\n".join([*self._formula, "", "", self._head, f"    return {self._call}"])
-
-    @property
-    def _formula(self) -> Iterator[str]:
-        """The private function that evaluates the formula."""
-        given = ", ".join(f"{s}: Array" for s in (*self.function.arguments, *self.keywords))
-        yield "@shared"
-        yield f"def _{self.function.name}({given}) -> {self.function.kind or 'Array'}:"
-        yield f'    """{self.function.summary}"""'
-        yield from self._code
-
-    @property
-    def _call(self) -> str:
-        """The expression that the public function returns."""
         given, constants = map(by_name, (self.function.arguments, self.keywords))
         kind = f", {self.function.kind}" if self.function.kind else ""
-        return f"evaluated(_{self.function.name}, {given}, {constants}{kind})"
+        call = f"    return evaluated(_{self.function.name}, {given}, {constants}{kind})"
+        return "\n".join([*self._formula, "", "", self._head, call])
 
     @property
     def _head(self) -> str:
@@ -112,48 +99,66 @@ class FunctionText:
     # ------------------------------------------------------------------ code
 
     @property
-    def _code(self) -> Iterator[str]:
-        arguments = self.function.arguments
+    def _formula(self) -> Iterator[str]:
+        """The private function that evaluates the formula; NaN where no such state exists."""
+        function, arguments, program = self.function, self.function.arguments, self.program
+        given = ", ".join(f"{s}: Array" for s in (*arguments, *self.keywords))
+        yield "@shared"
+        yield f"def _{function.name}({given}) -> {function.kind or 'Array'}:"
+        yield f'    """{function.summary}"""'
         if x in arguments and _is_drawn_in(self.sheet):
             yield "    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]"
-        printer = printer_of(self.program, {x} if x in arguments else {*arguments})
-        yield from step_lines(self.sheet, self.program, printer)
-        yield from self._ending({n: printer.doprint(e) for n, e in self.program.outputs.items()})
-
-    def _ending(self, values: dict[str, str]) -> Iterator[str]:
-        """Code that names the results and returns them, with NaN where no such state exists."""
+        varying = {x} if x in arguments else {*arguments}
+        for step in program.steps:
+            varying |= {step.symbol} if step.expr.free_symbols & varying else set()
+        printer = NumPyPrinter(varying)
+        yield from self._steps(printer)
         names = {}
-        for field, source in self.function.fields:
+        for field, source in function.fields:
             symbol = self.sheet[source].symbol if isinstance(source, str) else source
             names[field] = local(self.sheet, str(symbol))
-            if values[field] != names[field]:
-                yield f"    {names[field]} = {values[field]}"
-        yield from self._existing()
-        results = ", ".join(f"where(exists, {name}, np.nan)" for name in names.values())
-        kind = self.function.kind
-        yield f"    return {kind}({results})" if kind else f"    return {results}"
-
-    def _existing(self) -> Iterator[str]:
-        """Code that checks whether the state exists.
-
-        A contact that is returned must meet the same conditions as a contact that is passed in.
-        """
-        if "h" not in (str(step.symbol) for step in self.program.steps):
+            value = printer.doprint(program.outputs[field])
+            if value != names[field]:
+                yield f"    {names[field]} = {value}"
+        if "h" not in (str(step.symbol) for step in program.steps):
             yield "    h = a + c  # contact width [m]"
-        contact = self.sheet["tilt"].conditions if self.function.kind == "Contact" else ()
-        checks = [*checks_of((*self.conditions, *contact)), *self._further_checks]
-        yield f"    exists = {' & '.join(f'({check})' for check in checks)}"
+        yield f"    exists = {' & '.join(f'({check})' for check in self._checks)}"
+        results = ", ".join(f"where(exists, {name}, np.nan)" for name in names.values())
+        yield f"    return {function.kind}({results})" if function.kind else f"    return {results}"
+
+    def _steps(self, printer: NumPyPrinter) -> Iterator[str]:
+        """The steps, each with its meaning and unit behind it, or before it if it is long."""
+        known: dict[Symbol, Dimension] = dict(self.sheet.dimensions)
+        for step in self.program.steps:
+            dimension = known[step.symbol] = dimension_of(step.expr, known) or Dimension()
+            unit = "-" if str(dimension) == "1" else str(dimension)
+            line = f"    {step.symbol} = {printer.doprint(step.expr)}"
+            note = f"# {step.meaning} [{unit}]"
+            if len(line + note) + 2 <= LINE:
+                yield f"{line}  {note}"
+            else:
+                yield f"    {note}"
+                yield line
 
     @property
-    def _further_checks(self) -> Iterator[str]:
-        """Checks of arguments whose NaN would not reach the result.
+    def _checks(self) -> Iterator[str]:
+        """Conditions under which the state exists; those on the constants are checked in arrays.py.
 
-        At a corner `fmax` replaces 0/0 by zero, and so a NaN in x, too.  A formula with pieces uses
-        the parameters of one.
+        Lengths are limited so that their products stay within the range of float64.  A contact that
+        is returned must meet the same conditions as a contact that is passed in.
         """
-        corners = (k for k in self.sheet.frame.kinks if k.kink.is_corner)
-        if self.function.name == "pressure" and any(corners):
+        contact = self.sheet["tilt"].conditions if self.function.kind == "Contact" else ()
+        checked = _shortened(dict.fromkeys((*self.conditions, *contact)))
+        if {a > 0, c > 0} <= {*checked}:  # one comparison for both edges saves an array operation
+            checked = [cond for cond in checked if cond not in (a > 0, c > 0)] + [Min(a, c) > LEAST]
+        least = [Gt(_width, LEAST) if cond == (h > 0) else cond for cond in checked]
+        yield from map(NumPyPrinter().doprint, (*least, Lt(_width, MOST)))
+        # at a corner `fmax` replaces 0/0 by zero, and so a NaN in x, too
+        if self.function.name == "pressure" and any(
+            k.kink.is_corner for k in self.sheet.frame.kinks
+        ):
             yield "x == x"
+        # a formula with pieces uses the parameters of one
         own = [str(q.symbol) for q in self.sheet.geometry.parameters]
         if self._is_summed and len(own) > 1 and any(e.has(Piecewise) for e in self.program.exprs):
             yield f"{' * '.join(own)} > 0"
@@ -216,7 +221,7 @@ class FunctionText:
 
     @property
     def _existence(self) -> str:
-        needed = _without_constants(self.conditions)
+        needed = _shortened(self.conditions)
         inner = len(needed) > 1
         return f"NaN unless {' and '.join(_in_words(each, inner) for each in needed)}."
 
@@ -313,29 +318,6 @@ def _indented(text: str) -> list[str]:
     return textwrap.wrap(text, LINE - 4, initial_indent="    ", subsequent_indent="    ")
 
 
-def printer_of(program: Program, arguments: set[Symbol]) -> NumPyPrinter:
-    """A printer that knows which symbols vary along an array.
-
-    These are the arguments and the steps that depend on them.
-    """
-    varying = {*arguments}
-    for step in program.steps:
-        if step.expr.free_symbols & varying:
-            varying.add(step.symbol)
-    return NumPyPrinter(varying)
-
-
-def step_lines(sheet: FormulaSheet, program: Program, printer: NumPyPrinter) -> Iterator[str]:
-    """The code of the steps of a program, each with its meaning and unit."""
-    known: dict[Symbol, Dimension] = dict(sheet.dimensions)
-    for step in program.steps:
-        dimension = dimension_of(step.expr, known) or Dimension()
-        known[step.symbol] = dimension
-        unit = "-" if str(dimension) == "1" else str(dimension)
-        note = f"  # {step.meaning} [{unit}]" if step.meaning else ""
-        yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
-
-
 def _is_drawn_in(sheet: FormulaSheet) -> bool:
     """Whether x must be clipped to the contact: it also occurs outside roots and logarithms."""
     return bool(sheet["pressure"].expr.xreplace({w: S.One}).has(x))
@@ -348,40 +330,7 @@ def local(sheet: FormulaSheet, name: str) -> str:
     return name
 
 
-def checks_of(conditions: Iterable[Boolean]) -> list[str]:
-    """The conditions that the code checks; those on the constants are checked in arrays.py.
-
-    Lengths are limited so that their products stay within the range of float64.
-    """
-    checked = _without_constants(conditions)
-    if {a > 0, c > 0} <= {*checked}:  # one comparison for both edges saves an array operation
-        checked = [cond for cond in checked if cond not in (a > 0, c > 0)] + [Min(a, c) > LEAST]
-    least = [Gt(_width, LEAST) if cond == (h > 0) else cond for cond in checked]
-    return [NumPyPrinter().doprint(cond) for cond in (*least, Lt(_width, MOST))]
-
-
-def _without_constants(conditions: Iterable[Boolean]) -> list[Boolean]:
-    """The conditions, without those that require a constant to be positive.
-
-    h > 0 is left out if a > 0 and c > 0 are among the conditions, because they imply it.
-    """
-    needed = [cond for cond in dict.fromkeys(conditions) if not _is_of_a_constant(cond)]
-    spanning = {a > 0, c > 0} <= {*needed}
-    return [cond for cond in needed if not (spanning and cond == (h > 0))]
-
-
-def _is_of_a_constant(condition: Boolean) -> bool:
-    """Whether a condition requires a constant to be positive."""
-    if not isinstance(condition, Gt):
-        return False
-    symbol, least = condition.args
-    return bool(symbol.is_Symbol and symbol.is_positive and symbol != P and least == 0)
-
-
-def _noted(line: str, note: str) -> Iterator[str]:
-    """A line followed by its note, or preceded by it if the line would be too long."""
-    if len(line + note) <= LINE:
-        yield line + note
-    else:
-        yield "    " + note.strip()
-        yield line
+def _shortened(conditions: Iterable[Boolean]) -> list[Boolean]:
+    """The conditions without h > 0 if a > 0 and c > 0 are among them, because these imply it."""
+    needed = [*conditions]
+    return [cond for cond in needed if cond != (h > 0) or not {a > 0, c > 0} <= {*needed}]

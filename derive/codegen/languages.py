@@ -22,6 +22,7 @@ from sympy import (
     Eq,
     Expr,
     Function,
+    Gt,
     Integral,
     Max,
     Min,
@@ -159,7 +160,9 @@ def _function(
     steps = [Definition(s, expr, "") for s, expr in sheet.defined_in(name).items()]
     steps += [Definition(e, M / P, "")] if P in symbols else []
     program = Program({name: sheet.shown(name)}, tuple(steps))
-    condition, words = And(*function.conditions(sheet)), f"{formula.meaning} [{formula.unit}]"
+    positive = (Gt(symbol, 0, evaluate=False) for symbol in function.keywords(sheet))
+    condition = And(*function.conditions(sheet), *positive)
+    words = f"{formula.meaning} [{formula.unit}]"
     if x in symbols:
         inside = Definition(Symbol("x_in", real=True), Max(-a, Min(x, c)), "")
         program = program.mapped(lambda expr: expr.xreplace({x: inside.symbol})).with_steps(inside)
