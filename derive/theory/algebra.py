@@ -10,15 +10,19 @@ from sympy import (
     Add,
     Expr,
     Poly,
+    S,
     Symbol,
     cancel,
+    collect,
     count_ops,
+    expand,
+    factor,
     fraction,
     together,
 )
 
 from derive.theory.frame import Frame, KinkFrame
-from derive.theory.ring import Ring, factored, linear_parts, stand_ins_for_roots
+from derive.theory.ring import Ring
 
 
 def reduced(expr: Expr, frame: Frame) -> Expr:
@@ -34,7 +38,7 @@ def tidy(expr: Expr, frame: Frame) -> Expr:
         if linear is not None:
             return linear
     quotient = reduced(expr, frame)
-    forms = [factored(quotient), _collected(quotient, frame)]
+    forms = [factor(quotient), _collected(quotient, frame)]
     return min(forms, key=lambda form: (count_ops(form), str(form)))
 
 
@@ -49,13 +53,13 @@ def is_zero(expr: Expr, frame: Frame) -> bool:
     ring = Ring([expr, *squares.values()])
     symbols = [*(s for k in frame.kinks for s in (k.theta, k.w, k.L)), *ring.roots]
     first = [base for base in ring.inverses if base.has(*symbols)] if symbols else []
-    polynomial, _ = ring.cleared(ring.polynomial(expr), first)
+    polynomial = ring.cleared(ring.polynomial(expr), first)
     for root, (exponent, base) in ring.roots.items():
         polynomial = ring.lowered(polynomial, root, exponent, base)
     for k in frame.kinks:
         polynomial = ring.lowered(polynomial, k.w, 2, squares[k.w], least=int(k.clipped))
     parts = ring.apart(polynomial, symbols).values()
-    return all(ring.cleared(part, ring.inverses)[0].is_zero() for part in parts)
+    return all(ring.cleared(part, ring.inverses).is_zero() for part in parts)
 
 
 def _symbols(frame: Frame) -> list[Symbol]:
@@ -67,13 +71,13 @@ def _collected(quotient: Expr, frame: Frame) -> Expr:
     numerator, denominator = fraction(quotient)
     symbols = [s for s in _symbols(frame) if numerator.has(s)]
     if not symbols:
-        return factored(quotient)
+        return factor(quotient)
     content, primitive = Poly(numerator, *symbols).primitive()
     collected = sum(
-        factored(coefficient) * Poly({powers: 1}, *symbols).as_expr()
+        factor(coefficient) * Poly({powers: 1}, *symbols).as_expr()
         for powers, coefficient in primitive.terms()
     )
-    return factored(content / denominator) * collected
+    return factor(content / denominator) * collected
 
 
 def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
@@ -82,12 +86,10 @@ def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
     A common denominator is avoided, because it would take much longer for a long body.
     """
     symbols = _symbols(frame)
-    stand_ins = stand_ins_for_roots(expr)
-    parts = linear_parts(expr.xreplace(stand_ins), symbols)
-    if parts is None:
+    parts = collect(expand(expr), symbols, evaluate=False)
+    if not {*parts} <= {S.One, *symbols} or any(part.has(*symbols) for part in parts.values()):
         return None
-    back = {stand_in: root for root, stand_in in stand_ins.items()}
-    return Add(*(part.xreplace(back) * s for s, part in parts.items()))
+    return Add(*(factor(part) * s for s, part in parts.items()))
 
 
 def _low_power(expr: Expr, frame: Frame) -> Expr:

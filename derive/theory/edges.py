@@ -9,13 +9,12 @@ each logarithm is the integral of a binomial series, and no limit is needed.
 
 from enum import Enum
 
-from sympy import Expr, Integer, Rational, S, binomial, cancel, pi, sqrt
+from sympy import Expr, Integer, Poly, Rational, S, binomial, cancel, pi, sqrt
 
 from derive.symbols import E_star, a, c, h, s, x
 from derive.theory.algebra import tidy
 from derive.theory.frame import Frame, KinkFrame
 from derive.theory.pressure import smooth_part
-from derive.theory.ring import powers_of
 
 
 class Edge(Enum):
@@ -52,8 +51,8 @@ def pressure_series(frame: Frame, edge: Edge, terms: int) -> list[Expr]:
 
 
 def _taylor(polynomial: Expr, terms: int) -> list[Expr]:
-    found = powers_of(s, polynomial)
-    return [found.get(n, S.Zero) for n in range(terms)]
+    powers = Poly(polynomial, s)
+    return [powers.nth(n) for n in range(terms)]
 
 
 def _product(first: list[Expr], second: list[Expr], terms: int) -> list[Expr]:

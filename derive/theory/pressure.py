@@ -15,7 +15,6 @@ from sympy import Expr, Poly, S, Symbol, cancel, factor, pi
 from derive.symbols import E_star, w, x
 from derive.theory.frame import Frame
 from derive.theory.moments import weighted
-from derive.theory.ring import factored
 
 _at = Symbol("x_at", real=True)
 
@@ -26,7 +25,7 @@ def smooth_part(frame: Frame) -> Expr:
     total = _divided(frame.slope.base, None)
     for kink in frame.kinks:
         total += _divided(kink.kink.jump, kink)
-    return factored(total / pi)
+    return factor(total / pi)
 
 
 def _divided(polynomial: Expr, kink: object) -> Expr:

@@ -10,25 +10,17 @@ so that base**(n + k/q), 0 <= k < q, is base**n r**k.  Any expression is a polyn
 generators.
 """
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from math import prod
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from sympy import (
     Add,
-    Dummy,
     Expr,
     Float,
     Mul,
-    NumberSymbol,
-    Poly,
     Pow,
     Rational,
-    S,
-    Symbol,
-    exp,
-    factor,
     factorint,
 )
 
@@ -38,28 +30,21 @@ Polynomial = fmpq_mpoly
 class Ring:
     """The polynomials in the generators of some expressions.
 
-    first     generators that are ordered before all others in monomials
     roots     exponent and base of each root
     inverses  bases that occur in denominators; each follows the ones that it contains
     """
 
-    def __init__(self, exprs: Iterable[Expr], first: Sequence[Expr] = ()) -> None:
+    def __init__(self, exprs: Iterable[Expr]) -> None:
         self.roots: dict[Expr, tuple[int, Expr]] = {}
         self.inverses: list[Expr] = []
-        self._atoms = dict.fromkeys(first)
+        self._atoms: dict[Expr, None] = {}
         self._known: dict[Expr, Polynomial] = {}
         seen: set[Expr] = set()
         for expr in exprs:
             self._gather(expr, seen)
-        self.generators = (*self._atoms, *(1 / base for base in self.inverses))
         names = [*self._atoms, *(("inverse", base) for base in self.inverses)]
         self._places = {name: i for i, name in enumerate(names)}
         self._ring = fmpq_mpoly_ctx.get(("x", len(names)), "lex")
-
-    @property
-    def atoms(self) -> tuple[Expr, ...]:
-        """Every generator that is not an inverse."""
-        return tuple(self._atoms)
 
     def _gather(self, expr: Expr, seen: set[Expr]) -> None:
         """Find the generators that an expression needs."""
@@ -134,49 +119,15 @@ class Ring:
             total += part * self.polynomial(value) ** times * symbol ** (power - times * exponent)
         return total
 
-    def cleared(
-        self, polynomial: Polynomial, bases: Iterable[Expr]
-    ) -> tuple[Polynomial, dict[Expr, int]]:
-        """Multiply by the lowest powers of `bases` that remove all inverses; return these too."""
-        powers = {}
+    def cleared(self, polynomial: Polynomial, bases: Iterable[Expr]) -> Polynomial:
+        """Multiply by the lowest powers of `bases` that remove all their inverses."""
         for base in sorted(bases, key=self.inverses.index, reverse=True):
             highest = polynomial.degrees()[self._places["inverse", base]]
             if highest > 0:
-                parts = self.apart(polynomial, [("inverse", base)])
-                powers[base], by = highest, self.polynomial(base)
+                parts, by = self.apart(polynomial, [("inverse", base)]), self.polynomial(base)
                 lifted = (part * by ** (highest - power) for (power,), part in parts.items())
                 polynomial = sum(lifted, self._ring.constant(0))
-        return polynomial, powers
-
-    # ------------------------------------------------------------------ back to expressions
-
-    def factored(self, polynomial: Polynomial) -> Expr:
-        """The form that SymPy's factor returns; its atoms are symbols and numbers such as pi."""
-        above, below = self.cleared(polynomial, self.inverses)
-        if above.is_zero():
-            return S.Zero
-        number, powers = S.One, Counter[Expr]()
-        for whole, sense in ((above, 1), *((self.polynomial(b), -n) for b, n in below.items())):
-            content, factors = whole.factor()
-            number *= Rational(int(content.p), int(content.q)) ** sense
-            for part, times in factors:
-                powers[self.written(part)] += sense * times
-        product = Mul(*(part**power for part, power in powers.items()))
-        if product.is_Add and abs(number) != 1:
-            return Mul(number, product, evaluate=False)
-        return number * product
-
-    def written(self, polynomial: Polynomial) -> Expr:
-        """The polynomial as a sum of products."""
-        return Add(
-            *(
-                Mul(
-                    Rational(int(coefficient.p), int(coefficient.q)),
-                    *(self.generators[i] ** power for i, power in enumerate(monomial) if power),
-                )
-                for monomial, coefficient in polynomial.to_dict().items()
-            )
-        )
+        return polynomial
 
 
 def _factors(expr: Expr) -> Iterator[tuple[Expr, int]]:
@@ -197,49 +148,3 @@ def _factors(expr: Expr) -> Iterator[tuple[Expr, int]]:
         if kind != 1 or count.q > 1:
             whole = int(count.p % count.q) if kind == 1 else int(count.p)
             yield base ** (kind / count.q), whole
-
-
-def factored(expr: Expr) -> Expr:
-    """The same as SymPy's factor(expr), but faster for quotients of polynomials and roots."""
-    stand_ins = stand_ins_for_roots(expr)
-    ring = _of_quotient(expr.xreplace(stand_ins))
-    if ring is None:
-        return factor(expr)
-    found = ring.factored(ring.polynomial(expr.xreplace(stand_ins)))
-    if any(total.has(*stand_ins.values()) for total in found.atoms(Add) if stand_ins):
-        return factor(expr)  # here roots may be powers of each other
-    return found.xreplace({stand_in: root for root, stand_in in stand_ins.items()})
-
-
-def stand_ins_for_roots(expr: Expr) -> dict[Expr, Symbol]:
-    """A symbol for each root, and each odd power of a root, in an expression."""
-    roots = (p for p in expr.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2)
-    return {root: Dummy("r", positive=True) for root in sorted(roots, key=str)}
-
-
-def linear_parts(expr: Expr, symbols: Sequence[Symbol]) -> dict[Expr, Expr] | None:
-    """Factored constant term and coefficient of each symbol; None if `expr` is not linear."""
-    ring = _of_quotient(expr)
-    if ring is None or any(base.has(*symbols) for base in ring.inverses if symbols):
-        return None
-    held = [s for s in symbols if s in ring.atoms]
-    parts = ring.apart(ring.polynomial(expr), held)
-    if any(sum(powers) > 1 for powers in parts):
-        return None
-    names = {powers: Mul(*(s**n for s, n in zip(held, powers, strict=True))) for powers in parts}
-    return {names[powers]: ring.factored(part) for powers, part in parts.items()}
-
-
-def powers_of(symbol: Symbol, polynomial: Expr) -> dict[int, Expr]:
-    """Expanded coefficient of each power of a symbol."""
-    ring = Ring([polynomial], [symbol])
-    parts = ring.apart(ring.polynomial(polynomial), [symbol])
-    return {power: ring.written(part) for (power,), part in parts.items()}
-
-
-def _of_quotient(expr: Expr) -> Ring | None:
-    """The ring of a quotient of polynomials, in SymPy's order; None for any other expression."""
-    atoms = expr.atoms(Symbol, NumberSymbol)
-    atoms |= {S.Exp1 for power in expr.atoms(exp) if power.exp.is_Rational}  # exp(-1) contains it
-    ring = Ring([expr], Poly(Add(*atoms)).gens if atoms else ())
-    return None if {*ring.atoms} != atoms or expr.has(Float) else ring
