@@ -49,7 +49,6 @@ from sympy import (
     sinh,
     sqrt,
 )
-from sympy.logic.boolalg import Boolean
 from sympy.polys.fields import sfield
 from sympy.polys.rings import PolyElement, PolyRing
 
@@ -171,14 +170,10 @@ class Power:
         """Cases: the contact ends before the place, spans it, or lies beyond it."""
         if self.outside:
             return beyond
-        before, spans = self._conditions
+        before, spans = c <= self.place, a > -self.place
+        if self.side < 0:
+            before, spans = a <= -self.place, c > self.place
         return Piecewise((S.Zero, before), (inside, spans), (beyond, True))
-
-    @property
-    def _conditions(self) -> tuple[Boolean, Boolean]:
-        if self.side > 0:
-            return c <= self.place, a > -self.place
-        return a <= -self.place, c > self.place
 
     def _cosine(self, n: int) -> Expr:
         """int t**p cos(n theta), with theta from the edge on the side of the term."""
@@ -187,7 +182,7 @@ class Power:
         inside = (
             scale * u ** (p + _HALF) / sqrt(h) * _gauss(_HALF - n, _HALF + n, p + 3 * _HALF, u / h)
         )
-        rate = pi * _falling(p, n) / factorial(n)
+        rate = pi * ff(p, n) / factorial(n)
         beyond = rate * u**p * (h / (4 * u)) ** n * _gauss(n - p, n + _HALF, 2 * n + 1, h / u)
         return self._branches(inside, beyond)
 
@@ -215,17 +210,12 @@ class Power:
     def _beyond(self, j: int) -> Expr:
         p, u = self.exponent, self._u
         beta = sqrt(pi) * gamma(j + _HALF) / factorial(j)
-        return _falling(p, j) * u ** (p - j) * beta
+        return ff(p, j) * u ** (p - j) * beta
 
 
 def _gauss(first: Expr, second: Expr, third: Expr, at: Expr) -> Expr:
     """The hypergeometric function 2F1."""
     return hyper((first, second), (third,), at)
-
-
-def _falling(p: Expr, n: int) -> Expr:
-    """p (p - 1) ... with n factors."""
-    return ff(p, n)
 
 
 def _in_cosines(weight: Expr) -> dict[int, Expr]:
