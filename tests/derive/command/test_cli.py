@@ -559,10 +559,3 @@ def test_findings_as_a_page(here: Path) -> None:
     assert "claims is named 'nope'; the most similar" in refused(
         "check", EXAMPLE, "--explain", "nope"
     )
-
-
-def test_an_explanation_is_no_wider_than_its_words(here: Path) -> None:
-    printed = done("check", EXAMPLE, "--explain", "half-width")
-    words, _, table = printed.partition("numbers")
-    assert all(line == line.rstrip() for line in words.splitlines())
-    assert max(map(len, lines(table))) < 200
