@@ -3,12 +3,10 @@
 from pathlib import Path
 from typing import Any
 
-import mpmath
 import pytest
-from sympy import Rational, Symbol, pi, sqrt, symbols
+from sympy import Symbol, symbols
 
 from derive.check.claim import Claim, Verdict
-from derive.check.diagnosis import simple
 from derive.check.judge import Judged
 from derive.check.report import explanation, summary
 from derive.check.schema import Entry
@@ -69,8 +67,11 @@ def told(folder: Path, printed: str, more: str = "", before: str = "") -> dict[s
         ("load(a, c) = P", "symbols = { c = 'a' }", "by definition"),
         ("P = load(a, a)", "", "by definition"),
         ("load(a, w) = E_star*phi*sqrt(a*w)", "body = 'wedge'", "holds"),
-        ("load(a, a) = P", "body = { g = 'x**2/R', units = { R = 'm' } }", "by definition"),
-        ("load(a, a) = pi*E_star*a**2/(2*R)", "body = { g = 'x**2/R' }", "holds"),
+        (
+            "load(a, a) = pi*E_star*a**2/(2*R)",
+            "body = { g = 'x**2/R', units = { R = 'm' } }",
+            "holds",
+        ),
         (
             "sinh(w)**2 + 1 = cosh(w)**2",
             "body = 'none'\nsymbols = { P = '1', p = '1', K = '1' }",
@@ -142,11 +143,7 @@ def test_a_geometry_file_that_is_none(tmp_path: Path, text: str, why: str) -> No
 
 @pytest.mark.parametrize("given", ["../own.py", "./own.py", "inner/own.py"])
 def test_a_geometry_file_lies_in_the_same_folder(tmp_path: Path, given: str) -> None:
-    for folder in (tmp_path, tmp_path / "claims", tmp_path / "claims" / "inner"):
-        folder.mkdir(exist_ok=True)
-        (folder / "own.py").write_text(GEOMETRY)
-    text = f"body = '{given}'\n" + asking.claim("f = f")
-    done = asking.run(asking.written(tmp_path / "claims", text))
+    done = asking.run(asking.written(tmp_path, f"body = '{given}'\n" + asking.claim("f = f")))
     assert done.exit_code == 2
     assert "nor a geometry file in the same folder" in done.output
 
@@ -196,13 +193,6 @@ def test_by_what_both_sides_differ(tmp_path: Path, printed: str, key: str, part:
     assert part in (found[key] or "")
 
 
-def test_constants_are_recognised() -> None:
-    with mpmath.workdps(40):
-        for exact in (4 / pi, pi**2 / 6, -sqrt(Rational(2, 3) * pi)):
-            assert simple(mpmath.mpmathify(exact.evalf(40))) == exact
-        assert simple(mpmath.mpf("1.2345678901234567890123")) is None
-
-
 def test_units_of_symbols_that_nobody_knows() -> None:
     """t is in metres by the first equation, so that the second one does not fit."""
     a, t, p = symbols("a t p")
@@ -217,30 +207,19 @@ def test_units_of_symbols_that_nobody_knows() -> None:
         assert units.mismatch(left, right)
 
 
-def test_the_page_holds_every_claim(tmp_path: Path) -> None:
+def test_the_page_shows_figures_and_formulas_but_runs_nothing(tmp_path: Path) -> None:
     claims = (
-        '[[claims]]\nlabel = "right"\nprinted = "P = pi*E_star*a**2/(4*R)"\n'
         '[[claims]]\nlabel = "<script>"\n'
         "latex = 'p_0 = \\frac{P}{\\pi a} \\href{javascript:x}{a} \\text{<script>}'\n"
         'printed = "x"\nunchecked = "not yet"\n'
         '[[claims]]\nlabel = "wrong"\nprinted = "P = E_star*a**2/(5*R)"\n'
     )
-    done = asking.run(asking.written(tmp_path, HEAD + claims), "--format", "html")
-    assert done.exit_code == 1
-    page = done.stdout
+    page = asking.run(asking.written(tmp_path, HEAD + claims), "--format", "html").stdout
     assert "<script" not in page and 'href="j' not in page
     assert page.count("<mtext>&lt;script&gt;</mtext>") == 1
-    assert "&lt;script&gt;" in page
-    assert page.count("<section") == 3
-    places = [page.index(f"<h2>{heading}</h2>") for heading in ("failed", "unchecked")]
-    assert places == sorted(places)
-    assert places[1] < page.index("<h2>held from the body</h2>")
     assert MARK in page  # another run may replace it
     assert "<dt>printed</dt><dd><math" in page
-    assert "<code>P = pi*E_star*a**2/(4*R)</code>" in page
-    assert "5*pi/4" in page
-    assert page.count("<polyline") == 2
-    assert page.rstrip().endswith("</html>")
+    assert "5*pi/4" in page and page.count("<polyline") == 2
 
 
 # The worse of two claims of one equation counts.  (1) is from the body, (2) by definition,

@@ -67,8 +67,6 @@ FILES = {
     "as goes nowhere": claim("a = b", "as = 'sin(a) -> 2'"),
     "given is itself": claim("a = b", "given = ['it']"),
     "body is a path": claim("a = b", "body = '../../evil.py'"),
-    "body is code": claim("a = b", "body = { g = '__import__(\"os\")' }"),
-    "body has odd units": claim("a = b", "body = { g = 'x**2/R', units = { R = 'parsec' } }"),
     "units are a bomb": symbols("X = { is = 'a', unit = '" + "(" * 500 + "m" + ")" * 500 + "' }"),
     "symbol has odd keys": symbols("X = { exec = 'a' }"),
     "name of infinity": symbols('oo = "a"'),
@@ -88,6 +86,10 @@ FILES = {
 }
 
 PAPERS = {
+    "open braces": r"\newcommand{\a}{" + "{" * 5000 + "}",
+    "integrals of nothing": r"\newcommand{\a}{\int \int \int}",
+    "many fractions": r"\newcommand{\a}{" + r"\frac" * 500 + "}",
+    "an index of nothing": r"\newcommand{\a}{_ = ^}",
     "a bomb of macros": r"\newcommand{\a}{\b\b\b\b}\newcommand{\b}{\c\c\c\c}"
     r"\newcommand{\c}{\d\d\d\d}\newcommand{\d}{\e\e\e\e}\newcommand{\e}{xxxxxxxxxxxx}",
     "a macro of itself": r"\newcommand{\a}{\a\a}",

@@ -9,6 +9,8 @@ import pytest
 
 from tests.check.asking import claim, run, told, written
 
+pytestmark = pytest.mark.usefixtures("unmended")
+
 GOOD = {"holds", "numerical", "by definition"}
 
 # Hertz: P = pi E* h**2/16 R, p_0 = E* h/4 R and K_N = E* sqrt(h)/2 R with h = a + c; the tilt is

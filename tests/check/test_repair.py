@@ -101,37 +101,25 @@ MISPRINTS = {
             "2 + n = 2 + 2*gamma_function(n/2)/gamma_function(n/2 + 1)",
             "n + 2 = 2 + 2*gamma(n/2 + 1)/gamma(n/2)",
         ),
+        ("2*a < a", "2*a > a"),
         ("Q/(f*P) = 1 - l/a", "Q/(P*f) = 1 - l**2/a**2"),
-        ("Q/(f*P) = 1 - l**2/a", "Q/(P*f) = 1 - l**2/a**2"),
         ("Q = f*P*(1 - l/a)**2", "Q = P*f*(1 - l**2/a**2)"),
-        ("(l/a)**2 = (1 - Q/(f*P))**2", "l**2/a**2 = 1 - Q/(P*f)"),
         ("1 - l/a = 1 - (1 - Q/(f*P))**2", "1 - l/a = 1 - sqrt(1 - Q/(P*f))"),
-        ("l/a = 1 - Q/(f*P)", "l/a = sqrt(1 - Q/(P*f))"),
         ("l/a = sqrt(1 + Q/(f*P))", "l/a = sqrt(1 - Q/(P*f))"),
         ("l = sqrt(1 - Q/(f*P))", "l = a*sqrt(1 - Q/(P*f))"),
-        ("Q = P*(1 - l**2/a**2)", "Q = P*f*(1 - l**2/a**2)"),
         ("a**2 = 4*P*R/pi", "a**2 = 4*P*R/(pi*E_star)"),
-        ("a**2 = 4*P/(pi*E_star)", "a**2 = 4*P*R/(pi*E_star)"),
         ("a = 4*P*R/(pi*E_star)", "a = 2*sqrt(P*R/(pi*E_star))"),
         ("p_0 = sqrt(P*E_star/pi)", "p_0 = sqrt(E_star*P/(pi*R))"),
-        ("p_0 = sqrt(P/(pi*R))", "p_0 = sqrt(E_star*P/(pi*R))"),
-        ("p_0 = 2*P/pi", "p_0 = 2*P/(pi*a)"),
         ("diff(P, a) = pi*E_star/(2*R)", "diff(P, a) = pi*E_star*a/(2*R)"),
         ("l = sqrt(a**2 - 4*Q*R/(pi*f))", "l = sqrt(a**2 - 4*Q*R/(pi*E_star*f))"),
-        ("l = sqrt(a**2 - 4*Q/(pi*f*E_star))", "l = sqrt(a**2 - 4*Q*R/(pi*E_star*f))"),
         ("p_at_x = p_0*sqrt(1 - x/a)", "p_at_x = p_0*sqrt(1 - x**2/a**2)"),
         ("p_at_x = p_0*sqrt(a**2 - x**2)", "p_at_x = p_0*sqrt(a**2 - x**2)/a"),
         (
             "q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - sqrt(1 - x**2/l**2))",
             "q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - l*sqrt(1 - x**2/l**2)/a)",
         ),
-        (
-            "q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - a/l*sqrt(1 - x**2/l**2))",
-            "q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - l*sqrt(1 - x**2/l**2)/a)",
-        ),
         ("Q/(f*P) = cos(phi_0)", "Q/(P*f) = cos(phi_0)**2"),
         ("Q/(f*P) = sin(phi_0)**2", "Q/(P*f) = cos(phi_0)**2"),
-        ("l/sqrt(a**2 - l**2) = 1/tan(phi_0)", "l/sqrt(a**2 - l**2) = tan(phi_0)"),
         ("K_N = p_0*sqrt(2*a)", "K_N = p_0*sqrt(2/a)"),
         ("P = 2*integral(p_at_s, s, 0, l)", "P = 2*integral(p_at_s, s, 0, a)"),
         # an end of an integral comes before a factor
@@ -142,11 +130,9 @@ MISPRINTS = {
     WEDGE: [
         ("tan(theta) = 2*sqrt(a*c)/(a - c)", "cot(theta) = 2*sqrt(a*c)/(a - c)"),
         ("cos(theta) = (a - c)/(a + c)", "sin(theta) = (a - c)/(a + c)"),
-        ("cos(theta) = sqrt(a*c)/(a + c)", "cos(theta) = 2*sqrt(a*c)/(a + c)"),
         ("sin(pi*alpha/phi) = (a - c)/(a + c)", "sin(pi*alpha/(2*phi)) = (a - c)/(a + c)"),
         ("alpha = 2*phi/pi*acos((a - c)/(a + c))", "alpha = 2*phi*asin((a - c)/(a + c))/pi"),
         ("c/a = tan(theta/2)**2", "c/a = cot(theta/2 + pi/4)**2"),
-        ("P = phi*sqrt(a*c)", "P = E_star*phi*sqrt(a*c)"),
         ("P = E_star*phi*a*c", "P = E_star*phi*sqrt(a*c)"),
         ("M = P*(a + c)/4", "M = P*(a - c)/4"),
         ("K_N = 2*E_star*phi/pi*sqrt(c/(a + c))", "K_N = 2*E_star*phi*sqrt(c/(a*(a + c)))/pi"),
@@ -161,22 +147,6 @@ MISPRINTS = {
             "2*P*R/(E_star*b**2) = (pi - 2*phi_0)/(2*sin(phi_0)**2) - 1/tan(phi_0)",
         ),
         (
-            "2*P*R/(b**2*E_star) = (pi - 2*phi_0)/(2*sin(phi_0)) - 1/tan(phi_0)",
-            "2*P*R/(E_star*b**2) = (-phi_0 + pi/2)/sin(phi_0)**2 - 1/tan(phi_0)",
-        ),
-        (
-            "2*P*R/(b**2*E_star) = (pi - phi_0)/(2*sin(phi_0)**2) - 1/tan(phi_0)",
-            "2*P*R/(E_star*b**2) = (pi - 2*phi_0)/(2*sin(phi_0)**2) - 1/tan(phi_0)",
-        ),
-        (
-            "2*P*R/E_star = a*acos(b/a) - b*sqrt(a**2 - b**2)",
-            "2*P*R/E_star = a**2*acos(b/a) - b*sqrt(a**2 - b**2)",
-        ),
-        (
-            "2*P*R/E_star = a**2*asin(b/a) - b*sqrt(a**2 - b**2)",
-            "2*P*R/E_star = a**2*acos(b/a) - b*sqrt(a**2 - b**2)",
-        ),
-        (
             "K_N = E_star*sqrt(2*a)/(pi*R)*phi_0",
             "K_N = E_star*sqrt(2*a)*(-phi_0 + pi/2)/(pi*R)",
         ),
@@ -184,10 +154,6 @@ MISPRINTS = {
     PUNCH: [
         (
             "K_T = dQ/(pi*sqrt(2*a)) + sqrt(2*a)/8",
-            "K_T = dQ*sqrt(2/a)/(2*pi) + dsigma*sqrt(2*a)/8",
-        ),
-        (
-            "K_T = dQ/(pi*sqrt(2*a)) - dsigma*sqrt(2*a)/8",
             "K_T = dQ*sqrt(2/a)/(2*pi) + dsigma*sqrt(2*a)/8",
         ),
         (
@@ -222,6 +188,9 @@ def test_a_misprint_is_corrected(tmp_path: Path, head: str, printed: str, right:
         "sqrt(a*c) = a*c",
         "exp(a) = 2*exp(a)",
         "l = a",
+        # 1 = 1 and x = x say nothing
+        "sign(a - 1/100000) = 1",
+        "x = sqrt(abs(x))**2",
     ],
 )
 def test_no_correction_is_found(tmp_path: Path, printed: str) -> None:
@@ -236,16 +205,11 @@ def test_no_correction_is_found(tmp_path: Path, printed: str) -> None:
         # l/a = sqrt(1 - w) = 1 - w/2 + O(w**2), where w is Q/(f P)
         ("1 - l/a ~ Q/(f*P)", "k -> 1", "", "1 - l/a ~ Q/(2*P*f)"),
         ("l/a = 1 - Q/(f*P)", "k -> 1", "2", "l/a = 1 - Q/(2*P*f)"),
-        ("p_at_x = p_0*(1 - x**2/a**2)", "x -> 0", "4", "p_at_x = p_0*(1 - x**2/(2*a**2))"),
         # near an edge, the pressure is K_N sqrt(a - x); with l near to a, Q is 2 f P (1 - l/a)
         ("p_at_x ~ K_N*(a - x)", "x -> a", "", "p_at_x ~ K_N*sqrt(a - x)"),
-        ("f*p_at_x ~ K_N*sqrt(a - x)", "x -> a", "", "f*p_at_x ~ K_N*f*sqrt(a - x)"),
         ("Q ~ 2*P*(1 - l/a)", "l -> a", "", "Q ~ 2*P*f*(1 - l/a)"),
-        ("Q ~ 2*f*P*(1 - c/a)", "l -> a", "", "Q ~ 2*P*f*(1 - l/a)"),
-        # a term that does not matter may be anything; (a - l)/a is about Q/(2 f P)
-        ("a - l ~ Q/(f*P) + l", "k -> 1", "", None),
+        # a term that does not matter may be anything
         ("sin(t) = t - t**2/2", "t -> 0", "3", None),
-        ("cos(t) = 1 - t + t**3", "t -> 0", "2", None),
     ],
 )
 def test_a_correction_near_a_limit_stands_out(
@@ -295,7 +259,7 @@ def test_a_branch_that_is_zero(tmp_path: Path) -> None:
 # ------------------------------------------------------------------ which variable moves
 
 
-@pytest.mark.parametrize("end", ["a - l -> 0", "l -> a", "l - a -> 0", "k -> 1"])
+@pytest.mark.parametrize("end", ["l - a -> 0", "k -> 1"])
 def test_a_limit_does_not_let_all_lengths_vanish(tmp_path: Path, end: str) -> None:
     """l = k a tends to a as k -> 1, and not as a -> 0."""
     printed = "a**2 - l**2 ~ {}*a*(a - l)"

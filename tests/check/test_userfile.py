@@ -198,6 +198,11 @@ BAD_CLAIMS = {
         CIRCLE + 'conventions = [{ what = "w", contradicts = "eq. (0)" }]\n',
         "the key 'contradicts' is unknown: leave it out of conventions",
     ),
+    "ends": (CIRCLE.replace('"A =', '"integral(s, s, oo, 0) ='), "wrong order"),
+    "an endless value": (
+        CIRCLE.replace('"A =', '"pv(1/(s - 1), s, 0, oo) ='),
+        "an end of this principal value is infinite",
+    ),
     "likeness": (CIRCLE.replace("A = pi", "A ~ pi"), "~ cannot be checked"),
     "unread LaTeX": (CIRCLE.replace("printed", "latex"), "p is neither"),
     "unknown spelling": (

@@ -16,7 +16,7 @@ matplotlib.use("Agg")
 EACH = pytest.mark.parametrize("path", running.notebooks(), ids=lambda path: path.stem)
 
 
-@pytest.mark.enough("01*", "03*")  # of what the others show, tests ask more
+@pytest.mark.enough("01*")  # of what the others show, tests ask more
 @pytest.mark.slow
 @EACH
 def test_a_fresh_run_gives_what_is_committed(path: Path) -> None:
