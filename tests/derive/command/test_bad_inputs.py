@@ -10,7 +10,7 @@ import pytest
 
 import derive.command.new_geometry
 import derive.pipeline
-from derive.command.processes import Bounds, in_processes
+from derive.command.processes import in_processes
 from tests.commands import contents, run
 
 HEAD = """from sympy import *
@@ -195,16 +195,6 @@ def test_a_file_whose_profile_is_refused(g: str, here: Path) -> None:
 @pytest.mark.parametrize("text", FILES, ids=FILES.values())
 def test_a_file_that_holds_no_body(text: str, here: Path) -> None:
     assert FILES[text] in refused_file(here, text)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("text", ["raise KeyboardInterrupt", "import sys\nsys.exit(0)"])
-def test_a_file_is_refused_in_the_same_words_by_a_process_with_limits(
-    text: str, here: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    told = refused_file(here, text)
-    monkeypatch.setattr(derive.pipeline, "USER_FILE_LIMITS", Bounds(60, 4))
-    assert refused_file(here, text) == told
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda command: repr(command[:50]))

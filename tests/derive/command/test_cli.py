@@ -8,12 +8,11 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from sympy import expand, sympify
 
 import derive.command.processes
 import derive.command.terminal
@@ -23,10 +22,9 @@ from derive.body.library import library, load_geometry
 from derive.codegen.mark import MARK
 from derive.command.cli import main
 from derive.command.processes import Bounds
-from derive.pipeline import DONE, GENERATED, STAGES
+from derive.pipeline import GENERATED, STAGES
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet.built import BuiltBody
-from derive.sheet.derivation import slip_series
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
 from tests.codegen.made import body_of
@@ -178,26 +176,6 @@ def test_a_file_is_not_run_to_ask_for_a_directory(here: Path) -> None:
     """`generate` has limits only in its other processes."""
     (here / "ends.py").write_text("import os\nos._exit(3)\n")
     assert "--out my_package" in refused("generate", "ends.py")
-
-
-@pytest.mark.usefixtures("unproven")
-def test_show_prints_closed_forms_beside_the_integrals() -> None:
-    printed = done("show", "catenary")
-    assert "Each closed form follows its integral" in printed
-    assert "load_closed" in printed
-    assert "besseli(1, (a + c)/(2*b))" in printed
-    assert "Integral(" in printed
-
-
-@pytest.mark.usefixtures("unproven")
-def test_a_limit_that_strikes_is_told() -> None:
-    result = run("show", "catenary", "--limit", "1e-9")
-    told = "No closed form found within 1e-09 s; the formulas remain integrals."
-    assert result.exit_code == 0
-    assert result.stderr == f"catenary: {told}\n"
-    assert told in result.stdout
-    assert "load_closed" not in result.stdout
-    assert run("show", "wedge", "--limit", "1e-9").stderr == ""
 
 
 @pytest.mark.slow
@@ -466,27 +444,6 @@ def test_a_signal_ends_every_process_and_writes_nothing(
 # ------------------------------------------------------------------ the bar
 
 
-def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) -> None:
-    told: list[Mapping[str, object]] = []
-    monkeypatch.setattr("rich.progress.Progress.update", lambda bar, task, **now: told.append(now))
-    with derive.command.terminal.progress(3, STAGES) as step:
-        for body, stage in [
-            ("a", DONE),
-            ("b", STAGES[0]),
-            ("c", STAGES[0]),
-            ("b", STAGES[3]),
-            ("c", DONE),
-            ("b", DONE),
-        ]:
-            step(body, stage)
-    assert [now["completed"] for now in told] == [6, 6, 6, 9, 15, 18]
-    assert [now["description"] for now in told][1:4] == [
-        "b: reading g(x)",
-        "c: reading g(x), 1 more in progress",
-        "b: proving, 1 more in progress",
-    ]
-
-
 @pytest.mark.parametrize("variable", ["FORCE_COLOR", "TTY_COMPATIBLE"])
 def test_what_moves_is_left_out_of_a_pipe(
     variable: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -515,29 +472,11 @@ def test_what_takes_long_is_told_once_where_nothing_moves(
     assert second.endswith(" 0.05 s: b: reading g(x)")
 
 
-class TestSlip:
-    """`derive show NAME --slip ORDER`."""
-
-    def test_it_prints_the_terms_of_both_edges_and_groups_and_continues_long_ones(self) -> None:
-        printed = done("show", "hertz", "--slip", "2")
-        assert max(map(len, printed.splitlines())) <= 96
-        shown = printed.replace("\n    ", " ").splitlines()
-        assert [line.split(":")[0] for line in shown if ":" in line] == [
-            *(f"d_{side}, order {order}" for side in ("left", "right") for order in (1, 2)),
-            "kappa_left, kappa_right",
-        ]
-        assert "D_left = K_T_left/(K_N_left*f*kappa_left)" in shown
-        assert "K_N_left = E_star*sqrt(a + c)/(2*R)" in shown
-        terms, _ = slip_series(sheet("hertz"), 2)
-        for line, term in zip(shown, [t for found in terms.values() for t in found], strict=False):
-            own = {symbol.name: symbol for symbol in term.free_symbols}
-            assert expand(sympify(line.partition(": ")[2], own) - term) == 0
-
-    def test_its_time_is_limited(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        """For a body of the library, too."""
-        monkeypatch.setattr(derive.pipeline, "USER_FILE_LIMITS", Bounds(seconds=0.2, gigabytes=4))
-        told = refused("show", "hertz", "--slip", "2")
-        assert "took longer than the limit of 0.2 s" in told
+def test_the_time_of_a_series_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
+    """For a body of the library, too."""
+    monkeypatch.setattr(derive.pipeline, "USER_FILE_LIMITS", Bounds(seconds=0.2, gigabytes=4))
+    told = refused("show", "hertz", "--slip", "2")
+    assert "took longer than the limit of 0.2 s" in told
 
 
 def test_code_names_the_command_that_prints_it(here: Path, unproven: None) -> None:
