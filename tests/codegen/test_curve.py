@@ -173,26 +173,6 @@ def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(name:
                 assert abs(mpf(float(found)) / wanted - 1) < 1e-12, (a, c)
 
 
-@pytest.mark.thorough
-def test_a_tilt_whose_left_edge_lies_just_beyond_a_smooth_kink() -> None:
-    """At -b g'' = 0 and g''' jumps; the quadrature is done when the tilt agrees, too.
-
-    -pi alpha = int g'/w ds; phi x adds -phi.
-    """
-
-    def rise(s: mpf) -> mpf:
-        return mpf(11) / 4 * mpmath.sign(s + 0.5) * (2 * abs(s + 0.5)) ** mpf(1.75)
-
-    g = b * (Abs(x + b) / b) ** Rational(11, 4) + phi * x
-    with body_of(g) as (module, _, _):
-        for beyond in (1e-12, 1e-7, 1e-4):
-            found = module.tilt(0.5 + beyond, 0.25, **named(module))
-            with mpmath.workdps(40):
-                over = exactly(rise, 0.5 + beyond, 0.25, -0.5)
-                wanted = -over / mpmath.pi - mpf(OWN["phi"])
-            assert abs(mpf(float(found)) / wanted - 1) < 1e-12
-
-
 def test_exponentials_beyond_float64_have_a_slope_all_the_same() -> None:
     """g = phi b log(1 + exp(x/b)): P = (E*/2) int g'' w ds -> (E* phi/2) sqrt(a c) far out, where
     g'' = (phi/b)/(4 cosh(x/2b)^2) is as narrow as a corner."""

@@ -135,13 +135,6 @@ def names_in(text: str) -> set[str]:
     return {*re.findall(r"\b[A-Za-z]\w*", re.sub("!.*", "", text))}
 
 
-@pytest.mark.parametrize("name", BODIES)
-def test_no_names_in_fortran_differ_only_in_case(name: str) -> None:
-    names = names_in(code_of(of_library(name), "fortran"))
-    assert "dP" in names
-    assert len({name.lower() for name in names}) == len(names)
-
-
 def test_steps_in_fortran_avoid_the_names_of_parameters() -> None:
     """The angle theta_1 and the logarithm L_1 of a kink make way for Theta_1 and l_1."""
     R = parameter("Theta_1", "radius of the edges", unit="m")
@@ -150,16 +143,6 @@ def test_steps_in_fortran_avoid_the_names_of_parameters() -> None:
     names = names_in(code_of(sheet, "fortran"))
     assert {"Theta_1", "l_1", "theta_2", "L_2"} <= names
     assert len({name.lower() for name in names}) == len(names)
-
-
-@pytest.mark.parametrize("name", BODIES)
-def test_matlab_decides_for_each_element(name: str) -> None:
-    """One `if` would decide for all states of an array."""
-    code = re.sub("%.*", "", code_of(of_library(name), "matlab"))
-    assert not re.search(r"\b(if|while|switch|return)\b|&&|\|\|", code)
-    functions = code.count("@")
-    assert code.count("value = NaN(size(valid));") == functions > 0
-    assert code.count("value(valid) = ") == functions
 
 
 @cache

@@ -231,23 +231,7 @@ def test_a_number_beyond_float64_is_refused(number: Expr) -> None:
         NumPyPrinter().doprint(number * x)
 
 
-def test_conditions_evaluate_to_themselves() -> None:
-    pairs = product((x, Rational(3, 4), x + y), repeat=2)
-    conditions = [r for u, v in pairs for r in (u > v, u >= v, u < v, u <= v)]
-    conditions += [(x > 0) & (y > 0) & (z > 0), (x > 2) | (y > 2), (x > 0) & ((y > 0) | (z > 0))]
-    for condition in conditions:
-        expr = Piecewise((1, condition), (0, True))
-        assert computed(expr, (), True) == [float(v) for v in meant(expr)], condition
-
-
 @pytest.mark.parametrize("expr", UNKNOWN, ids=lambda expr: f"{type(expr).__name__}: {expr}")
 def test_what_is_unknown_is_refused(expr: Basic) -> None:
     with pytest.raises(CannotPrint):
         NumPyPrinter().doprint(expr)
-
-
-def test_a_refusal_says_what_is_unknown() -> None:
-    with pytest.raises(CannotPrint, match=r"zeta.*zeta\(x \+ 1\)"):
-        NumPyPrinter().doprint(2 * zeta(x + 1))
-    with pytest.raises(CannotPrint, match=r"x > 0"):
-        NumPyPrinter().doprint(Piecewise((x, x > 0)))

@@ -1,5 +1,6 @@
 """Pictures of histories hold what `history` gives, and refuse what they cannot draw."""
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -99,59 +100,56 @@ NO_PLACES = hertz.history(P, 0.0, WAY, 0.0, **FRICTION)
 TWO = History(*(np.stack([v, v]) for v in WHOLE))
 
 
-@pytest.mark.parametrize(
-    ("history", "x", "words"),
-    [
-        *((WHOLE, X[:9], "for the same x"), (NO_PLACES, X, "with slip at the 201 positions of x")),
-        *((TWO, X, "not a single History"), (WHOLE, X[:, None], "give one row of at least two")),
-        *((WHOLE, X[::-1], "x must increase, but .* at index 1"), (WHOLE, "x", "x is 'x'")),
-        *((WHOLE, X + 0.3 * EDGE, "x is not the x of"), (WHOLE, 1.3 * X, "x is not the x of")),
-        (WHOLE, 0.7 * X, "lacks slip inside it"),
-        *((WHOLE, [X, X[:9]], "finite numbers"), (hertz.contact(P, 0.0, **STEEL), X, "History")),
-    ],
-)
-def test_what_cannot_be_drawn_is_refused(history: Any, x: Any, words: str) -> None:
+def drawn(draw: Any = plot.slip_map, law: dict[str, Any] | None = None, **changed: Any) -> Any:
+    """A picture of the history, of another one, or for other constants; None is left out."""
+    given = {"history": WHOLE, "x": X, **changed}
+    if draw is not plot.slip_map:
+        constants = {**FRICTION, **(law or {})}
+        known = {key: value for key, value in constants.items() if value is not None}
+        given = {"body": hertz, **known, **given}
+    return draw(**given)
+
+
+AT = r"`at` is .*from -6 to 5, because history has 6 instants"
+FIT = "does not fit this body"
+film, work, at = (partial(drawn, draw) for draw in (plot.film, plot.friction_work, plot.instants))
+REFUSED = [
+    ("for the same x", partial(drawn, x=X[:9])),
+    ("with slip at the 201 positions of x", partial(drawn, history=NO_PLACES)),
+    ("not a single History", partial(drawn, history=TWO)),
+    ("History", partial(drawn, history=hertz.contact(P, 0.0, **STEEL))),
+    ("give one row of at least two", partial(drawn, x=X[:, None])),
+    ("give one row of at least two", partial(drawn, history=History(*(v[:1] for v in WHOLE)))),
+    ("x must increase, but .* at index 1", partial(drawn, x=X[::-1])),
+    ("x is 'x'", partial(drawn, x="x")),
+    ("finite numbers", partial(drawn, x=[X, X[:9]])),
+    ("x is not the x of", partial(drawn, x=X + 0.3 * EDGE)),
+    ("x is not the x of", partial(drawn, x=1.3 * X)),
+    ("lacks slip inside it", partial(drawn, x=0.7 * X)),
+    *(
+        (words, partial(draw, time=times))
+        for draw in (drawn, film)
+        for words, times in (
+            ("one row of 6 finite", [0.0, 1.0]),
+            ("time must increase, but 0 follows 0 at index 1", [0, 0, 1, 2, 3, 4]),
+        )
+    ),
+    *((AT, partial(at, at=given)) for given in ([6], [-7], [], 3, [3.5], "1", [[1], [2]])),
+    ("does not fit", partial(work, law={"f": 0})),
+    ("broadcast", partial(work, law={"E_star": [1e9, 2e9]})),
+    (rf"{FIT}, f and constants: \|q\| must .*; give the body", partial(work, law={"f": 0.1})),
+    (FIT, partial(work, law={"f": 0.51})),
+    (FIT, partial(work, law={"R": 0.049})),
+    (FIT, partial(work, body=wedge, law={"R": None, "phi": 0.01})),
+    (FIT, partial(work, body=flat_rounded, law={"b": 2 * EDGE})),
+]
+"""What is told, and what cannot be drawn."""
+
+
+@pytest.mark.parametrize(("words", "draw"), REFUSED)
+def test_what_cannot_be_drawn_is_refused(words: str, draw: Callable[[], Any]) -> None:
     with pytest.raises(ValueError, match=words):
-        plot.slip_map(history, x)
-
-
-def test_a_map_needs_two_instants() -> None:
-    with pytest.raises(ValueError, match="give one row of at least two"):
-        plot.slip_map(History(*(v[:1] for v in WHOLE)), X)
-
-
-@pytest.mark.parametrize("draw", [plot.slip_map, partial(plot.film, hertz, **FRICTION)])
-def test_times_are_those_of_successive_instants(draw: Any) -> None:
-    with pytest.raises(ValueError, match="one row of 6 finite"):
-        draw(WHOLE, X, [0.0, 1.0])
-    with pytest.raises(ValueError, match="time must increase, but 0 follows 0 at index 1"):
-        draw(WHOLE, X, [0, 0, 1, 2, 3, 4])
-
-
-@pytest.mark.parametrize("at", [[6], [-7], [], 3, [3.5], "1", [[1], [2]]])
-def test_instants_are_chosen_by_a_list_of_indices(at: Any) -> None:
-    with pytest.raises(ValueError, match=r"`at` is .*from -6 to 5, because history has 6 instants"):
-        plot.instants(hertz, WHOLE, X, at, **FRICTION)
-
-
-@pytest.mark.parametrize(
-    ("body", "given", "words"),
-    [
-        *((hertz, {"f": 0}, "does not fit"), (hertz, {"E_star": [1e9, 2e9]}, "broadcast")),
-        (
-            hertz,
-            {"f": 0.1},
-            r"does not fit this body, f and constants: \|q\| must .*; give the body",
-        ),
-        *((hertz, {"f": 0.51}, "does not fit this"), (hertz, {"R": 0.049}, "does not fit this")),
-        (wedge, {"R": None, "phi": 0.01}, "does not fit this body"),
-        (flat_rounded, {"b": 2 * EDGE}, "does not fit this body"),
-    ],
-)
-def test_friction_is_that_of_the_history(body: Any, given: dict[str, Any], words: str) -> None:
-    law = {key: value for key, value in {**FRICTION, **given}.items() if value is not None}
-    with pytest.raises(ValueError, match=words):
-        plot.friction_work(body, WHOLE, X, **law)
+        draw()
 
 
 def notes(of: Any) -> list[list[str]]:
