@@ -52,9 +52,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
     Behind the longest, and so by one worker, those that share what takes long to make.
     """
-    whole = not config.getoption("lf", False) and not any("::" in path for path in config.args)
-    if whole:  # else not all cases of a test are here
-        _demand_a_case_of_each_name(items)
     for item in items:
         if item.name in SLOW_EXAMPLES:
             item.add_marker("slow")
@@ -79,20 +76,6 @@ def _case(item: pytest.Item) -> str:
     """What stands in the brackets of a test; nothing for one without."""
     case = getattr(item, "callspec", None)
     return case.id if case else ""
-
-
-def _demand_a_case_of_each_name(items: list[pytest.Item]) -> None:
-    """Raises LookupError, which processes of xdist hand on, for a name in a mark `enough` that no
-    case bears any more."""
-    cases: dict[tuple[str, str], list[str]] = {}
-    for item in items:
-        if enough := item.get_closest_marker("enough"):
-            for name in enough.args:
-                test = item.nodeid.partition("[")[0]
-                cases.setdefault((test, name), []).append(_case(item))
-    for (test, name), found in cases.items():
-        if not any(fnmatchcase(case, name) for case in found):
-            raise LookupError(f"{test}: enough({name!r}) is none of {', '.join(found):.200}")
 
 
 @pytest.fixture(autouse=True)

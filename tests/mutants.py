@@ -6,8 +6,8 @@ GROUP is theory, check, proof or runtime; `all` takes one after the other.  A mu
 operator, comparison or boolean, drops a sign or a `not`, adds one to a number, or exchanges two
 arguments of one call.  It is caught if a test fails or runs on for too long; tests that compare the
 committed text of generated/ do not count.  The tests named after the mutated file run first, then
-those of its folder, then the others of its group, each until the first failure.  Every mutant is
-printed with the test that caught it.  The exit status is 1 if more than three in a hundred survive.
+the others of its group, both until the first failure.  Every mutant is printed with the test that
+caught it.  The exit status is 1 if more than three in a hundred survive.
 """
 
 import ast
@@ -34,46 +34,22 @@ OF_TEXT = "not committed and not fresh_run and not drift"
 PATIENCE = 2.0
 """Tests that run on for this many times what those of the group take have caught a mutant."""
 
-SLIP = (
-    "tests/runtime/test_zone.py",
-    "tests/generated/test_stick.py",
-    "tests/generated/test_shear.py",
-)
-CONTACT = ("tests/generated/test_quadrature.py", "tests/generated/test_library.py")
-GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
-    "theory": {
-        "derive/theory": ("tests/derive/theory", "tests/derive/test_closed_forms.py"),
-        "derive/codegen": ("tests/codegen",),
-    },
-    "check": {
-        "derive/check": ("tests/check",),
-        "derive/reading": ("tests/derive/reading", "tests/check"),
-    },
-    "proof": {
-        "derive/proof": ("tests/derive/proof",),
-        "derive/body": ("tests/derive/body",),
-    },
-    "runtime": {
-        "generated/runtime/slip": SLIP,
-        "generated/runtime/history": ("tests/runtime/test_history.py",),
-        "generated/runtime/edge": ("tests/edge",),
-        "generated/runtime": CONTACT,
-    },
-}
-"""Folders of each group, and the tests that concern what is in them."""
-
-ALL_OF: dict[str, tuple[str, ...]] = {
+GROUPS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "theory": (
-        "derive/theory",
-        "tests/derive/theory",
-        "tests/codegen",
-        "tests/edge/test_theory.py",
+        ("derive/theory", "derive/codegen"),
+        (
+            *("derive/theory", "tests/derive/theory", "tests/derive/sheet", "tests/codegen"),
+            *("tests/derive/test_closed_forms.py", "tests/edge/test_theory.py"),
+        ),
     ),
-    "check": ("tests/check", "tests/derive/reading"),
-    "proof": ("tests/derive/proof", "tests/derive/body", "tests/derive/sheet"),
-    "runtime": ("tests/runtime", "tests/generated", "tests/edge"),
+    "check": (("derive/check", "derive/reading"), ("tests/check", "tests/derive/reading")),
+    "proof": (
+        ("derive/proof", "derive/body"),
+        ("tests/derive/proof", "tests/derive/body", "tests/derive/sheet"),
+    ),
+    "runtime": (("generated/runtime",), ("tests/runtime", "tests/generated", "tests/edge")),
 }
-"""Everything that may catch a mutant of a group."""
+"""Folders of each group, and the tests that may catch what is wrong in them."""
 
 NAMED = {
     "march": ("tests/runtime/test_march.py",),
@@ -113,19 +89,12 @@ class Mutant(NamedTuple):
         return ast.unparse(tree)
 
     def tests(self, group: str) -> Iterator[tuple[str, ...]]:
-        """Tests to run, in turn: those of the file, of its folder, of the group."""
+        """Tests to run, in turn: those of the file, and those of the group."""
         stem = Path(self.path).stem
         own = [str(p.relative_to(ROOT)) for p in (ROOT / "tests").rglob(f"test_{stem}.py")]
         first = (*own, *NAMED.get(stem, ()))
-        then = next(tests for folder, tests in GROUPS[group].items() if folder in self.path)
         yield first
-        yield (*then, *_without(first))
-        yield (*ALL_OF[group], *_without((*first, *then, *ELSEWHERE)))
-
-
-def _without(tests: tuple[str, ...]) -> tuple[str, ...]:
-    """Options that leave out tests which have run."""
-    return tuple(f"--ignore={test}" for test in tests)
+        yield (*GROUPS[group][1], *(f"--ignore={test}" for test in (*first, *ELSEWHERE)))
 
 
 # ------------------------------------------------------------------ faults
@@ -188,7 +157,7 @@ def _is_text(node: ast.AST) -> bool:
 
 def chosen(group: str, count: int, only: str) -> list[Mutant]:
     """So many of all, in an order that is the same everywhere and has nothing to do with place."""
-    files = {path for folder in GROUPS[group] for path in (ROOT / folder).rglob("*.py")}
+    files = {path for folder in GROUPS[group][0] for path in (ROOT / folder).rglob("*.py")}
     every = [m for path in sorted(files) for m in mutants_of(path) if only in str(m)]
     return sorted(every, key=lambda m: sha256(str(m).encode()).digest())[:count]
 
@@ -254,7 +223,7 @@ def tried(group: str, count: int, jobs: int, only: str) -> tuple[int, int]:
                 idle.put(sandbox)
 
         began = perf_counter()
-        if by := idle.queue[0].failed(ALL_OF[group]):
+        if by := idle.queue[0].failed(GROUPS[group][1]):
             sys.exit(f"no fault is needed: {by} fails as it is")
         limit = 60 + PATIENCE * (perf_counter() - began)
         for mutant, by in zip(mutants, pool.map(caught, mutants), strict=True):

@@ -1,6 +1,5 @@
 """Hostile surroundings: one clear line each, the right exit status, and nothing is lost."""
 
-import os
 import sys
 from pathlib import Path
 from subprocess import CompletedProcess
@@ -78,12 +77,6 @@ def test_a_device_without_end(here: Path, command: str) -> None:
     assert done.exit_code == 2 and len(done.stderr.splitlines()) == 1
     assert "a device or a pipe, not a regular file" in done.stderr
     assert list(here.iterdir()) == []
-
-
-@pytest.mark.skipif(not os.access("/proc/kmsg", os.R_OK), reason="only root may read this log")
-def test_a_log_whose_reading_would_wait(tmp_path: Path) -> None:
-    done = derive(tmp_path, "edge /proc/kmsg --f 0.5")
-    assert done.returncode == 2 and done.stderr.count("\n") == 1
 
 
 def test_a_package_of_another_version_in_the_current_folder(tmp_path: Path) -> None:

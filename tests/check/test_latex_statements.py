@@ -323,22 +323,6 @@ def test_macros_are_not_glued_to_their_neighbours_and_eqno_gives_the_number(tmp_
     assert one.number == "4.3"
 
 
-OUTSIDE = r"""
-where $A = \begin{pmatrix} 1 & 2 \\ 3 & 4 \end{pmatrix}$ holds :: \begin{pmatrix} is a table or
-a small \(\left[\begin{smallmatrix} a \\ b \end{smallmatrix}\right]\) :: \begin{smallmatrix} is a
-with $\begin{array}{cc} a & b \end{array} = c$ :: \begin{array} is a table or a matrix
-"""
-
-
-@pytest.mark.parametrize("inline", [False, True])
-@pytest.mark.parametrize(("text", "why"), table(OUTSIDE))
-def test_a_matrix_in_the_text_is_told(text: str, why: str, inline: bool, tmp_path: Path) -> None:
-    path = tmp_path / "paper.tex"
-    path.write_text(rf"\begin{{document}} {text} \[ a = b \] \end{{document}}")
-    (told,) = draft_claims(path, inline).unread
-    assert told.startswith("paper.tex:1: ") and why in told
-
-
 def test_a_table_outside_displays_is_told_and_hides_no_display(tmp_path: Path) -> None:
     rows = r"n & 1 & 2 \\ $A_n$ & 0.5 & 0.7 \\ & \multicolumn{2}{c}{$$ a = b $$}"
     head = r"\begin{tabular}{cc} name & material \end{tabular}"

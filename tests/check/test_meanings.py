@@ -158,12 +158,6 @@ def test_shear_is_at_the_friction_limit_where_it_slips(
     assert found["verdict"] == verdict
 
 
-def test_a_stick_zone_lies_within_its_contact(tmp_path: Path) -> None:
-    head = "body = 'hertz'\n[paper]\nsymmetric = true\n"
-    (it,) = told(tmp_path, head + claim("Abs(P - Q/f - load(m, m)) + Abs(a - m) = a - m"))
-    assert it["verdict"] in GOOD
-
-
 @pytest.mark.parametrize(
     ("answers", "why"),
     [
@@ -227,18 +221,6 @@ def test_a_paper_in_ten_minutes(tmp_path: Path) -> None:
     ]
 
 
-def test_an_unanswered_draft_says_what_to_do(tmp_path: Path) -> None:
-    """Four lines of the file are as good as four answers."""
-    paper, new = written(tmp_path, PAPER, "paper.tex"), tmp_path / "new.toml"
-    assert "answer the four questions" in run(paper, "--draft", new).output
-    assert "Answer the four questions" in run(new).output
-    lines = "body = 'flat_rounded'\n[paper]\nsymmetric = true\n"
-    lines += "letters = { b = 'a', a = 'b', m = 'c', f = '\\mu' }\n"
-    new.write_text(new.read_text().replace("\n[variables]", f"\n{lines}[variables]", 1))
-    assert "standard meaning: P = load(b, b)" in run(new, "--accept", answers="all\nall\n").output
-    assert told(tmp_path, new.read_text())[0]["verdict"] == "numerical"
-
-
 def test_a_wrong_answer_is_asked_again(tmp_path: Path) -> None:
     """Each question, and each answer that does not come from a terminal, stands in a line."""
     paper, new = written(tmp_path, PAPER, "paper.tex"), tmp_path / "new.toml"
@@ -254,14 +236,3 @@ def test_a_wrong_answer_is_asked_again(tmp_path: Path) -> None:
         "modulus": "E_star",
         "letters": {"m": "k", "n": "l"},
     }
-
-
-def test_the_questions_name_all_letters(tmp_path: Path) -> None:
-    paper = written(tmp_path, PAPER, "paper.tex")
-    output = run(paper, "--draft", tmp_path / "new.toml", answers="hertz\ny\nE_star\n\n").output
-    ours, off = (
-        " ".join(output.partition(start)[2].split()) for start in ("Our letters", "off the middle")
-    )
-    assert "m, half-width of the stick zone" in ours
-    for letter in ("n, right end", "d, half-width", "e, eccentricity", "sigma, bulk tension"):
-        assert letter in off

@@ -6,13 +6,10 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from sympy import Symbol, symbols
 
 from derive.check.accept import accept
 from derive.check.schema import ClaimsFile, Entry
 from derive.check.userfile import read_claims
-from derive.command.errors import BadFormula
-from derive.reading.formula import Names, equation, formula
 from tests.check.asking import run, told, written
 
 KEYS = set(ClaimsFile.__struct_encode_fields__)
@@ -311,21 +308,7 @@ def test_conventions_and_calls_of_formulas_in_a_correction(
     assert ("counted from the right" in it["evidence"]) == (verdict == "convention")
 
 
-# ------------------------------------------------------------------ formulas
-
-a, c = symbols("a c")
-NAMES = Names("here", {"a": a, "c": c, "s": Symbol("s", real=True)}, {"load": 2})
-
-
-@pytest.mark.parametrize(
-    ("text", "column"),
-    [("a + z", 4), ("load(a)", 0), ("sqrt(a, c)", 0), ("(a", 2), ("a = c + z", 8)],
-)
-def test_a_message_points_to_the_place(text: str, column: int) -> None:
-    with pytest.raises(BadFormula) as caught:
-        (equation if "=" in text else formula)(text, NAMES)
-    assert caught.value.column == column
-    assert caught.value.message.splitlines()[-1].index("^") == column + 4
+# ------------------------------------------------------------------ readings to accept
 
 
 def test_what_was_understood_must_be_accepted(tmp_path: Path) -> None:

@@ -1,6 +1,5 @@
 """Closed forms of bodies that are integrated: by hand, at limits, made up, in time."""
 
-import time
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -8,22 +7,19 @@ from typing import Any
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Abs, Expr, Max, Piecewise, Rational, atan, cosh, exp, log, sinh, sqrt
+from sympy import Abs, Max, Piecewise, Rational, atan, cosh, exp, log, sinh, sqrt
 
 import derive.command.limit
 import derive.proof.prove
 import derive.sheet.derivation
 from derive import Geometry, load_geometry, parameter
-from derive.command.limit import LookAtClock
 from derive.proof.numerical import numeric_proof
 from derive.proof.points import contacts, numeric
 from derive.proof.prove import prove_sheet
 from derive.proof.verdict import DIGITS, POINTS, Proof, Verdict
-from derive.sheet.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
+from derive.sheet.derivation import derive_sheet, with_closed_forms
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import a, c, x
-from derive.theory.frame import Frame
-from tests.derive.bodies import of_library
 
 pytestmark = pytest.mark.slow
 
@@ -187,31 +183,3 @@ def test_a_term_without_a_rule_leaves_the_integrals(name: str) -> None:
     found = with_closed_forms(given)
     assert {*found} == {*given}
     assert "no rule for " in found.remark and told in found.remark
-
-
-# ------------------------------------------------------------------ in time
-
-
-def endless(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
-    while True:
-        time.sleep(0.01)
-
-
-def looking(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
-    while True:
-        look()
-
-
-@pytest.mark.parametrize(("search", "alarms"), [(endless, True), (looking, True), (looking, False)])
-def test_the_search_ends_at_its_limit(
-    monkeypatch: pytest.MonkeyPatch, search: Any, alarms: bool
-) -> None:
-    monkeypatch.setattr(derive.sheet.derivation, "closed_forms", search)
-    if alarms and not derive.command.limit._has_alarms():
-        pytest.skip("no alarms here")
-    monkeypatch.setattr(derive.command.limit, "_has_alarms", lambda: alarms)
-    given, began = of_library("catenary"), time.monotonic()
-    found = with_closed_forms(given, 0.25)
-    assert 0.25 <= time.monotonic() - began < 5
-    assert {*found} == {*given}
-    assert found.remark.startswith(f"{NONE_IN_TIME} 0.25 s;")

@@ -20,13 +20,6 @@ def test_no_parameter_can_have_the_name_of_a_generated_function() -> None:
     assert {*generated.wedge.__all__} <= RESERVED
 
 
-def test_signs_are_assumed_where_the_theory_says_so_alone() -> None:
-    positive = {name for name, quantity in QUANTITIES.items() if quantity.symbol.is_positive}
-    assert {"E_star", "P", "f", "s"} <= positive
-    assert not positive & {"a", "c", "alpha", "x", "M", "e", "dQ", "dsigma"}
-    assert QUANTITIES["dQ"].symbol.is_nonnegative
-
-
 def test_width_middle_and_root_are_those_of_the_contact() -> None:
     assert expand(mid + h / 2 - c) == expand(mid - h / 2 + a) == 0
     assert expand(w**2 - (a + x) * (c - x)) == 0

@@ -80,11 +80,3 @@ def test_the_study_takes_other_loads(study: Any, rows: tuple[str, ...], f: float
             why = "slip reverses" if regime[i] == Regime.MIXED else "nothing sticks"
             assert any(name in part and why in part for part in said.split("*"))
     assert ("All of these stick zones are known." in said) == bool(np.all(np.isfinite(zone.m)))
-
-
-@SLOW
-def test_what_is_no_cycle_is_told(study: Any) -> None:
-    with pytest.raises(AssertionError, match="exchange 1 and 2"):
-        study(("falling,10,1,1,0,0,0.3,0.1,0,0",), 0.45)
-    with pytest.raises(AssertionError, match="without a contact"):
-        study(("lifted,10,-1,1,0,0,0.1,0.3,0,0",), 0.45)

@@ -18,14 +18,6 @@ def written(path: Path, text: str) -> Path:
     return path
 
 
-def test_a_file_is_loaded_by_text_and_by_path(tmp_path: Path) -> None:
-    cylinder = written(tmp_path / "cylinder.py", CYLINDER)
-    for given in (cylinder, str(cylinder)):
-        body = load_geometry(given)
-        assert (body.name, str(body.g)) == ("cylinder", "x**2/(2*radius)")
-        assert body.description == "A cylinder of one's own."
-
-
 def test_a_file_is_executed_once_and_leaves_nothing_behind(tmp_path: Path) -> None:
     diary = tmp_path / "diary.txt"
     path = written(

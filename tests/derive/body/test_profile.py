@@ -1,6 +1,5 @@
 """Reading g(x): one slope for every way to write a body, and a reason for every refusal."""
 
-from collections.abc import Callable
 from fractions import Fraction
 
 import pytest
@@ -135,22 +134,6 @@ def test_kinks_are_found_from_left_to_right(g: Expr, places: list[str], sides: l
     assert [k.number for k in kinks] == list(range(1, len(kinks) + 1))
 
 
-@pytest.mark.parametrize(
-    ("g", "modulus"),
-    [
-        (sqrt(x**2 - 2 * x * b + b**2) * phi, phi * Abs(x - b)),
-        (phi * sqrt(x**2 - 2 * sqrt(3) * x * b + 3 * b**2), phi * Abs(x - sqrt(3) * b)),
-    ],
-    ids=str,
-)
-def test_a_kink_in_the_root_of_a_square_is_that_of_a_modulus(g: Expr, modulus: Expr) -> None:
-    found, wanted = (slope(each + 4 * x**2 / b) for each in (g, modulus))
-    assert found.domain == (-oo, oo)
-    for mine, other in zip(found.kinks, wanted.kinks, strict=True):
-        assert mine.position == other.position
-        assert simplify(mine.step - other.step) == 0
-
-
 _coefficient = st.fractions(min_value=Fraction(1, 8), max_value=4, max_denominator=8)
 
 
@@ -202,43 +185,12 @@ def test_what_is_no_polynomial_on_its_pieces_is_read_all_the_same(
     assert found.demands == ()
 
 
-@pytest.mark.parametrize(
-    ("g", "domain"),
-    [
-        *((-b * log((x + b) / b), (-b, oo)), (-b * log(1 - x**2 / b**2), (-b, b))),
-        (b * (x**2 / b**2) ** Rational(3, 4), (-oo, oo)),
-    ],
-    ids=str,
-)
-def test_a_body_may_end_where_it_is_infinite(g: Expr, domain: tuple[Expr, Expr]) -> None:
-    assert str(slope(g).domain) == str(domain)
-
-
 def test_an_exponent_must_lie_above_one() -> None:
     """Abs(x)**k is convex for k > 1; its slope at the apex, 0**(k - 1), is then no corner."""
     found = slope(R * (Abs(x) / R) ** k)
     assert str(found.demands) == "(k > 1,)"
     assert found.kinks[0].step == 0
     assert found.limits == (-oo, oo)
-
-
-@pytest.mark.enough("beside a hyperbola")
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "beside",
-    [
-        lambda power: power * cosh(x / b),
-        lambda power: power + phi * sqrt(x**2 + b**2),
-        lambda power: power + Abs(x) ** Rational(7, 3) / R ** Rational(4, 3),
-    ],
-    ids=["times cosh", "beside a hyperbola", "beside |x|^(7/3)"],
-)
-def test_an_exponent_beside_other_terms_must_lie_above_one(beside: Callable[[Expr], Expr]) -> None:
-    """At the origin |x|^(k - 2) outgrows what stands beside it unless k >= 2; its factor in g'' is
-    k (k - 1) b^(1 - k) times 1, the cosh's value there."""
-    found = slope(beside(b * (Abs(x) / b) ** k))
-    assert [str(demand) for demand in found.demands] == ["k > 1"]
-    assert found.kinks == () or found.kinks[0].step == 0
 
 
 def test_a_corner_whose_sign_hangs_on_a_parameter() -> None:

@@ -108,32 +108,6 @@ def test_the_command_is_a_module_too(tmp_path: Path) -> None:
     assert (ended.returncode, ended.stderr) == (0, "")
 
 
-@pytest.mark.parametrize(
-    ("typed", "told"),
-    [
-        (".venv/bin/derive", ".venv/bin/derive"),
-        ("{here}/on path/derive", "derive"),
-        ("{else}/of mine/derive", "'{else}/of mine/derive'"),
-        ("{else}/pytest/__main__.py", "derive"),
-    ],
-)
-def test_advice_names_the_command_as_it_was_typed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, typed: str, told: str
-) -> None:
-    folders = {"here": tmp_path / "here", "else": tmp_path / "else"}
-    on_path = folders["here"] / "on path"
-    on_path.mkdir(parents=True)
-    (on_path / "derive").write_text("#!/bin/sh\n")
-    (on_path / "derive").chmod(0o755)
-    (folders["here"] / ".venv").mkdir()
-    monkeypatch.chdir(folders["here"])
-    monkeypatch.setenv("PATH", str(on_path))
-    monkeypatch.setattr(sys, "argv", [typed.format(**folders), "new"])
-    (folders["here"] / "body.py").write_text(CYLINDER)
-    advice = refused("generate", "body.py")
-    assert f"`{told.format(**folders)} generate body.py --out my_package`" in advice
-
-
 @pytest.mark.usefixtures("unproven")
 def test_show_prints_every_formula_with_its_proof() -> None:
     """On one line where no terminal is, and as one display in LaTeX."""

@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from sympy import Abs
 
 from derive import Geometry, derive_sheet, parameter, x
 from derive.command.folder import replace_folder, with_manifest
-from derive.handbook.curves import OWN, drawn_at, pictures
+from derive.handbook.curves import pictures
 from derive.handbook.page import card, index_of, page
 from derive.pipeline import GENERATED
 from derive.sheet.built import BuiltBody
@@ -81,24 +80,6 @@ def test_a_pressure_rises_out_of_the_picture_at_a_corner(name: str, corners: int
     assert drawn["has_corner"] and len(parts) == 3 * (1 + corners)
     ends = [point.split(",")[1] for part in parts for point in (part.split()[0], part.split()[-1])]
     assert ends.count(f"{TOP:.1f}") == 2 * 3 * corners
-
-
-@pytest.mark.parametrize("name", sorted(OWN))
-def test_a_picture_shows_what_a_body_has_of_its_own(name: str) -> None:
-    """Neither equal sides nor the parabola."""
-    sheet, _ = made(name)
-    _, law = drawn_at(sheet)
-    assert OWN[name].items() <= law.items()
-    units = {q.name: q.unit for q in sheet.geometry.parameters}
-    assert len({(unit, law[name]) for name, unit in units.items()}) == len(units)
-    assert law.get("k") != 2
-
-
-def test_a_body_of_ones_own_may_have_the_name_of_another() -> None:
-    """Here the exponent must be greater than two, so that the 1.5 of `power` is not taken."""
-    k, L = parameter("k", "exponent", unit="-"), parameter("L", "a length", unit="m")
-    sheet = derive_sheet(Geometry("power", g=Abs(x) ** (k - 1) / L ** (k - 2)))
-    assert drawn_at(sheet)[1]["k"] > 2
 
 
 @pytest.mark.parametrize("latex", ["a & b", r"\unknown{x}", "a $ b"])

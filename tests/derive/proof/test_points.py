@@ -8,7 +8,7 @@ import pytest
 from mpmath import mpf
 from sympy import Integral, Symbol, symbols
 
-from derive.proof.points import Point, contacts, draws, holds, loads, numeric
+from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.proof.verdict import POINTS
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, x
 from tests.derive.bodies import EACH, sheet
@@ -18,14 +18,6 @@ from tests.derive.bodies import EACH, sheet
 def drawn(name: str) -> list[Point]:
     """Contacts of one body, drawn once."""
     return contacts(sheet(name))
-
-
-def test_what_is_outside_the_assumptions_is_drawn_again_unless_it_is_rare() -> None:
-    numbers = list(draws("a name", lambda rng, _: n if (n := rng.random()) < 0.25 else None))
-    assert len(numbers) == POINTS and max(numbers) < 0.25
-    tries = iter(range(10**6))
-    found = list(draws("a name", lambda rng, found: True if next(tries) % 1000 == 0 else None))
-    assert 0 < len(found) < POINTS
 
 
 @pytest.mark.enough("hertz", "unequal_wedge", "flat_rounded")
@@ -46,18 +38,6 @@ def test_contacts_meet_every_assumption_and_lie_on_all_sides(name: str) -> None:
         assert -point[a] < point[x] < point[c]
         assert all(point[s] > 0 for s in (E_star, *(q.symbol for q in body.geometry.parameters)))
         assert point[dQ] >= 0
-
-
-@pytest.mark.slow
-@pytest.mark.enough("two_radii", "flat_rounded")
-@pytest.mark.parametrize("name", ["two_radii", "flat_rounded", "spline", "wedge_on_parabola"])
-def test_some_contacts_span_every_kink_and_some_have_left_one(name: str) -> None:
-    """One formula serves both, so both are tried."""
-    places = [numeric(k.position) for k in sheet(name).geometry.slope.kinks]
-    spanned = {
-        all(-point[a] < place(point) < point[c] for place in places) for point in drawn(name)
-    }
-    assert spanned == {True, False}
 
 
 @pytest.mark.parametrize("name", ["hertz", "wedge", "unequal_wedge", "shifted_wedge"])

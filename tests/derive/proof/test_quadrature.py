@@ -3,15 +3,13 @@
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Abs, Expr, Max, Min, Rational, S
 
 from derive import Geometry, x
 from derive.proof.points import Point, numeric
 from derive.proof.quadrature import Contact, slope_as_given
-from derive.proof.verdict import DIGITS, WORKING
 from derive.symbols import E_star, a, c
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, CASES, VALUES, b, close, geometry
+from tests.derive.bodies import BODIES, CASES, VALUES, close, geometry
 
 
 def contact(
@@ -67,37 +65,3 @@ def test_it_takes_the_slope_from_g_as_written_and_agrees_with_another_quadrature
     assert close(here.tilt, integrals.tilt(*over), scale=1)
     assert close(here.load, integrals.load(*over, E))
     assert close(here.moment, integrals.moment(*over, E), scale=here.load)
-
-
-@pytest.mark.parametrize("ramp", [(x + Abs(x)) / 2, x - Min(0, x), Max(0, x)])
-@pytest.mark.parametrize("power", [S(3), Rational(5, 2)])
-def test_powers_of_a_ramp(ramp: Expr, power: Expr) -> None:
-    """x**2 + ramp**n on [-1, 1]: alpha = -(n/pi) int_0^1 s**(n - 1)/sqrt(1 - s**2) ds."""
-    body = Geometry("ramp", x**2 / b + ramp**power / b ** (power - 1))
-    n, one = mpf(power.p) / power.q, mpf(1)
-    here = contact(body, 1, 1, b=1)
-    assert close(here.tilt, -n * mpmath.beta(n / 2, one / 2) / (2 * mpmath.pi))
-
-
-@pytest.mark.parametrize("distance", ["0.1", "5e-4", "-5e-4", "1e-6"])
-def test_the_pressure_close_to_a_kink_keeps_all_its_digits(distance: str) -> None:
-    """min(|x|, b)/R: on the parabola p has a closed form, which both sides of x = b must meet.
-
-    p = (E*/2 pi R) [w (pi - t1 - t2) + 2 (b + x) L1 + 2 (b - x) L2] for a = c, with
-    t = acos(b/a), L1 and L2 the wedge's logarithms at -b and b.
-    """
-    with mpmath.workdps(WORKING):
-        half, width, radius = mpf(2), mpf(VALUES["b"]), mpf(VALUES["R"])
-        place = width + mpf(distance)
-        here = contact(geometry("rounded_wedge"), 2.0, 2.0, place)
-
-        def logarithm(at: mpf) -> mpf:
-            u, v = (half - at) * (half + place), (half + at) * (half - place)
-            near = mpmath.sqrt(min(u, v) / (abs(place - at) * 2 * half))
-            return mpmath.asinh(near)
-
-        angle = mpmath.acos(width / half)
-        root = mpmath.sqrt(half**2 - place**2)
-        logs = (width + place) * logarithm(-width) + (width - place) * logarithm(width)
-        expected = (root * (mpmath.pi - 2 * angle) + 2 * logs) / (2 * mpmath.pi * radius)
-        assert close(here.pressure, VALUES["E_star"] * expected, digits=DIGITS)

@@ -6,7 +6,6 @@ import pytest
 from mpmath import inf, mpf, nan, workdps
 
 from derive.proof.verdict import (
-    DIGITS,
     POINTS,
     WORKING,
     Comparison,
@@ -46,16 +45,6 @@ def test_digits_are_relative_and_never_overstated(power: int, scale: mpf) -> Non
     with workdps(WORKING + 20):
         gap = mpf(3) * mpf(10) ** -(power + 1)  # 3e-(p+1): more than p digits, less than p + 1
         assert comparison(scale, scale * (1 + gap)).digits == power
-
-
-def test_agreement_at_every_point_is_numerical_and_the_worst_point_is_reported() -> None:
-    some = agreeing(POINTS)
-    proof = numerical_proof("a route", some)
-    assert proof == Proof(Verdict.NUMERICAL, "a route", POINTS, WORKING)
-    assert proof.holds
-    with workdps(WORKING):
-        some[7] = comparison(ONE, ONE + mpf(10) ** -(DIGITS + 3) / 2, some[7].point)
-    assert numerical_proof("a route", some).digits == DIGITS + 3
 
 
 @pytest.mark.parametrize("count", [0, POINTS - 1])
@@ -99,8 +88,3 @@ def test_both_routes_together(symbolic: Proof | None, numerical: Proof | None) -
     proof = combined(symbolic, numerical)
     assert proof.verdict == expected
     assert proof.holds == (expected in (Verdict.PROVEN, Verdict.NUMERICAL))
-
-
-def test_a_route_that_could_not_be_tried_is_not_named_as_a_proof() -> None:
-    proof = combined(SYMBOLIC[1], Proof(Verdict.UNKNOWN, "by numbers", 3))
-    assert (proof.route, proof.points) == ("by symbols", 0)

@@ -13,7 +13,6 @@ from sympy import (
     Abs,
     Expr,
     Heaviside,
-    Integer,
     Max,
     Min,
     Piecewise,
@@ -279,16 +278,6 @@ def test_any_text_is_read_or_refused(text: str) -> None:
         assert isinstance(read(text), Expr)
     except BadText as error:
         assert 0 <= error.column <= len(text)
-
-
-@settings(max_examples=40)
-@given(st.lists(st.lists(st.sampled_from(LEAVES), min_size=1, max_size=3), max_size=3))
-def test_the_bounds_of_what_is_multiplied_out_hold(factors: list[list[Pair]]) -> None:
-    expr = Integer(1)
-    for factor in factors:
-        expr = (expr + 2) * sum(computed(code) for _, code in factor) ** len(factor)
-    multiplied = sympy.expand(expr)
-    assert len(sympy.Add.make_args(multiplied)) <= terms(expr)
 
 
 def test_the_limits_are_where_they_are_said_to_be() -> None:

@@ -1,8 +1,6 @@
 """Units: read, multiplied, and refused; dimensions of expressions."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from sympy import (
     Integral,
     Max,
@@ -52,19 +50,6 @@ def test_a_bad_unit_is_refused_with_a_remedy(text: str) -> None:
         parse_unit(text)
     assert repr(text) in caught.value.message
     assert "product of powers" in caught.value.message
-
-
-_unit = st.sampled_from(["m", "Pa", "N", "rad", "1", "sqrt(m)", "m**(1/3)", "N/m", "1/Pa"])
-
-
-@given(_unit, _unit, st.integers(-3, 3))
-def test_units_multiply_divide_and_rise_as_their_exponents_do(
-    first: str, second: str, power: int
-) -> None:
-    p, q = parse_unit(first), parse_unit(second)
-    assert parse_unit(f"({first})*({second})") == p * q
-    assert parse_unit(f"({first})/({second})") * q == p
-    assert parse_unit(f"({first})**{power}") == Dimension(p.pressure * power, p.length * power)
 
 
 @pytest.mark.parametrize(

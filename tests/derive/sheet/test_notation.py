@@ -4,7 +4,7 @@ import re
 
 import pytest
 from rich.console import Console
-from sympy import Expr, Integral, Symbol, parse_expr, pi, symbols
+from sympy import Expr, Symbol, parse_expr, symbols
 
 from derive.command.view import formulas
 from derive.reading.latex import Latex
@@ -37,36 +37,6 @@ LATEX = {
 def test_symbols_are_set_as_the_theory_writes_them(name: str) -> None:
     quantity = QUANTITIES.get(name)
     assert latex_of(quantity.symbol if quantity else Symbol(name)) == LATEX[name]
-
-
-@pytest.mark.parametrize("name", ["hertz", "unequal_wedge", "two_radii", "flat_rounded"])
-def test_no_word_of_a_sheet_is_italic(name: str) -> None:
-    """Two letters side by side are a product, a command, or the word of a command."""
-    upright = re.sub(r"\\(mathrm|operatorname|text|begin|end)\{[^{}]*\}", "", sheet(name).latex)
-    assert not re.findall(r"(?<![\\A-Za-z])[A-Za-z]{2,}", upright)
-
-
-INTEGRAL = Integral(p**2, (p, 0, q))
-
-
-@pytest.mark.parametrize(
-    ("expr", "start"),
-    [
-        *(
-            (-INTEGRAL / pi, r"- \frac{1}{\pi} \int"),
-            ((p + q) * INTEGRAL, r"\left(p + q\right) \int"),
-        ),
-        *(
-            (-INTEGRAL, r"- \int"),
-            (1 / INTEGRAL, r"\frac{1}{\int"),
-            (q / INTEGRAL, r"\frac{q}{\int"),
-        ),
-        *((INTEGRAL**2, r"\left(\int"), (q - INTEGRAL / 2, r"q - \frac{1}{2} \int")),
-    ],
-    ids=str,
-)
-def test_an_integral_stands_beside_its_fraction(expr: Expr, start: str) -> None:
-    assert latex_of(expr).startswith(start)
 
 
 def from_latex(expr: Expr) -> Expr:

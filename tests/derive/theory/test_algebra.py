@@ -42,13 +42,3 @@ def test_a_difference_is_seen_however_it_is_dressed(
 ) -> None:
     expr = sum((n * p * q / r for n, p, q, r in terms), Integer(0))
     assert not is_zero(expr + Rational(gap, 10**25) - reduced(expr, CORNER), CORNER)
-
-
-@pytest.mark.parametrize("name", ["two_radii", "flat_rounded"])
-def test_a_reduced_form_also_holds_where_the_contact_has_left_the_kink(name: str) -> None:
-    """A clipped root is zero there, its square is not (a + x_j)(c - x_j)."""
-    frame = sheet(name).frame
-    for k in frame.kinks:
-        form = frame.flat(reduced(k.w**2 + a, frame))
-        for left, right in ((-1.0, 3.0), (3.0, -1.0)):
-            assert close(bodies.number(form, a=left, c=right), mpf(left))

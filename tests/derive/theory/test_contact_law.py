@@ -1,6 +1,5 @@
 """Growth along fixed tilt, and the inverses: against quadrature, and by putting back."""
 
-import mpmath
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -39,22 +38,6 @@ def test_edges_and_load_grow_along_fixed_tilt(name: str, left: float, right: flo
     assert close(value(name, "edge_ratio", a=left, c=right), ratio, digits=12)
     rate = loads[1] + loads[0] * ratio
     assert close(value(name, "load_rate", a=left, c=right), rate, digits=12)
-
-
-@pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
-def test_flat_punches_of_a_tilted_wedge_add_up_to_its_pressure(ratio: float) -> None:
-    """At fixed tilt a = r c: p(x) = int_x^c F(s) / sqrt((r s + x)(s - x)) ds for x > 0.
-
-    With s = x + t^2 the root takes ds along, 2 dt / sqrt(r s + x) stays.
-    """
-    end, place = mpf(2), mpf("0.625")
-
-    def integrand(t: mpf) -> mpf:
-        s = place + t**2
-        return 2 * value("wedge", "punch", a=ratio * s, c=s) / mpmath.sqrt(ratio * s + place)
-
-    total = mpmath.quad(integrand, [0, mpmath.sqrt(end - place)])
-    assert close(total, value("wedge", "pressure", x=place, a=ratio * end, c=end), digits=18)
 
 
 _positive = st.floats(0.0625, 16)

@@ -15,7 +15,7 @@ from derive.sheet.derivation import derive_sheet
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import x
 from derive.theory.edges import Edge, pressure_series
-from derive.theory.parts import has_parts, parts_of
+from derive.theory.parts import parts_of
 from derive.theory.segments import written_out
 from tests.derive.bodies import of_library
 
@@ -69,14 +69,6 @@ def test_no_term_of_what_a_contact_carries_is_negative(name: str) -> None:
     for formula in ("load", "K_N_left", "K_N_right", "pressure"):
         terms = parts.formulas[formula].expand().as_ordered_terms()
         assert not any(term.could_extract_minus_sign() for term in terms)
-
-
-def test_bodies_that_a_contact_cannot_leave_keep_one_form() -> None:
-    for name in ("hertz", "wedge", "parabola_quartic"):
-        sheet = sheet_of(name)
-        assert not has_parts(sheet.frame)
-        assert all(formula.computed is None for formula in sheet.values())
-        assert sheet.computed_definitions == {}
 
 
 def test_a_sum_that_is_not_the_formula_is_refuted() -> None:

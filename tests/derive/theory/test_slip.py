@@ -6,12 +6,11 @@ from itertools import product
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Rational, Symbol, lambdify, simplify, symbols
+from sympy import Rational, Symbol, lambdify, symbols
 
 from derive.symbols import E_star, a, c, h
 from derive.theory import slip
 from derive.theory.edges import Edge, pressure_series
-from generated.runtime.slip import series as runtime
 from tests.derive.bodies import sheet
 
 d, stuck = symbols("d stuck", positive=True)
@@ -54,17 +53,6 @@ def test_what_an_order_leaves_out_is_of_the_next_order(of: str, order: int) -> N
     assert abs(mpmath.log(errors[0] / errors[1], 4) - (order + 1)) < 0.05
 
 
-def test_the_kernels_are_those_of_the_theory() -> None:
-    """To the second order, with derivatives; the contact at the other end has no pressure."""
-    K, L, numbers = 1.5, -0.75, {d: 0.125, stuck: 3.0}
-    kernel = getattr(runtime._contributions, "py_func", runtime._contributions)
-    edge = runtime.Edge(K, L, 0.0, 0.0, 1.0, 0.0, 0.0)
-    for of, found in zip(("near", "far"), kernel(edge, 0.125, 3.0), strict=True):
-        expr = getattr(slip, of)([K, L], d, stuck, 2)
-        for value, exact in zip(found, (expr, expr.diff(d), expr.diff(stuck)), strict=True):
-            assert value == pytest.approx(float(exact.xreplace(numbers)), rel=1e-14)
-
-
 @pytest.mark.parametrize("order", [1, 2, 3])
 def test_terms_put_back_leave_what_is_of_the_next_order(order: int) -> None:
     """A quarter of the loads: 4**-(order + 1) of what is left of both conditions."""
@@ -81,27 +69,6 @@ def test_terms_put_back_leave_what_is_of_the_next_order(order: int) -> None:
         left.append([abs(found.xreplace(here).evalf(40)) for found in slip.conditions(order)])
     for first, second in zip(*left, strict=True):
         assert abs(mpmath.log(first / second, 4) - (order + 1)) < 0.05
-
-
-def test_second_order_is_that_of_theory() -> None:
-    """f K d - (L_T/2) d + (3/4) f L d**2 = K_T + f K d**2/(8 h) + kappa f K' d'**2/(4 h).
-
-    Forward slip at both edges.  L_T = K_T/(2 h) - dsigma/(4 sqrt(h)) with dsigma = 4 (K_T -
-    K_T')/sqrt(h); first terms d = K_T/(f K) in what is of second order.
-    """
-    K, L, other, K_T, K_T_other, h, f = symbols("K L K_other K_T K_T_other h f", positive=True)
-    first, opposite = K_T / (f * K), K_T_other / (f * other)
-    given = {slip.D_left: first, slip.D_right: opposite, slip.rho: other / K, slip.width: h}
-    (ratio,) = slip.ratios("left", 2)
-    _, second = (t.subs(given | {ratio: L / K}) for t in slip.terms(2)[0])
-    L_T = K_T / (2 * h) - (K_T - K_T_other) / h
-    theory = (
-        L_T / 2 * first
-        - Rational(3, 4) * f * L * first**2
-        + f * K * first**2 / (8 * h)
-        + f * other * opposite**2 / (4 * h)
-    ) / (f * K)
-    assert simplify(second - theory) == 0
 
 
 @pytest.mark.parametrize("name", ["wedge", "hertz", "quartic", "unequal_wedge"])
