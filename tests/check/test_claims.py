@@ -155,6 +155,20 @@ printed = "E = 2*G*(1 + nu)"
 [[claims]]
 label = "(9)"
 printed = "G = w/(1 + nu)"
+[[claims]]
+label = "(10)"
+printed = "G < w"
+[[claims]]
+label = "(11)"
+printed = "p_0 = E_star*a/R"
+symbols = { p_0 = "E_star*a/R" }
+[[claims]]
+label = "(12)"
+printed = "p_0 = 4*P/(pi*a)"
+[[claims]]
+label = "(13)"
+printed = "P = p_0*pi*a/4"
+given = ["(12)"]
 """
 
 
@@ -162,20 +176,30 @@ printed = "G = w/(1 + nu)"
 @pytest.mark.parametrize(
     ("printed", "given", "verdict"),
     [
-        ("G = E/(2*(1 + nu))", '["(8)"]', "holds"),
+        ("G = E/(2*(1 + nu))", '["(8)"]', "holds: rests on given (8) (unchecked)"),
+        ("P = p_0*pi*a/4", '["(12)"]', "holds: rests on given (12) (fails)"),
+        (
+            "p_0 = 4*P/(pi*a)",
+            '["(13)"]',
+            "holds: given (13) (holds, rests on given (12) (fails))",
+        ),
+        ("E = G", '["(10)"]', "unchecked: of the form symbol = ..."),
+        ("p_0*R = E_star*a", '["(11)"]', "unchecked: no symbols, body or cases of its own"),
         ("G = E/(1 + nu)", '["(8)"]', "fails"),
         ("E = 2*w", '["(8)", "(9)"]', "holds"),
         ("E = 2*w", '["(9)"]', "fails"),
         ("E = 4*G*(1 + nu)*integral(t, t, 0, 1)", '["(8)"]', "numerical"),
         ("E = G", '["it"]', "unchecked"),
-        ("E = G", '["(10)"]', "unchecked"),
+        ("E = G", '["(14)"]', "unchecked"),
         ("E = G", '"(8)"', "unchecked"),
     ],
 )
 def test_what_follows(tmp_path: Path, printed: str, given: str, verdict: str) -> None:
     found = told(tmp_path, printed, f"given = {given}", MODULI)
-    assert found["verdict"] == verdict, found["reason"]
-    assert "given" in found["reason" if verdict == "unchecked" else "evidence"]
+    wanted, _, words = verdict.partition(": ")
+    assert found["verdict"] == wanted, found["reason"]
+    assert "given" in found["reason" if wanted == "unchecked" else "evidence"]
+    assert words in f"{found['reason']} {found['evidence']}"
 
 
 # By hand: a = (2/sqrt(pi)) sqrt(P R/E*), P = pi E* a**2/(4 R), and 29*4 is 116.

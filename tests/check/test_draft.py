@@ -73,26 +73,6 @@ def test_a_draft_says_what_was_read_and_judges_nothing(tmp_path: Path) -> None:
     assert all(each["reason"] for each in told)
 
 
-@pytest.mark.parametrize(
-    ("name", "label"),
-    [
-        ("law/2", "law/2"),
-        ("eq. (2)", "first"),
-        ("(2)", "first"),
-        ("2", "first"),
-        ("eq. (2), paper.tex:9", "first"),
-        ("paper.tex:9", "first"),
-    ],
-)
-def test_a_claim_is_found_by_its_label_its_place_or_its_number(
-    name: str, label: str, tmp_path: Path
-) -> None:
-    new = tmp_path / "draft.toml"
-    run(written(tmp_path, PAPER), "--draft", new)
-    done = run(new, "--explain", name)
-    assert (done.exit_code, done.output.split()[0]) == (1, label), done.output
-
-
 def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """One line with the file, and nothing is left or lost."""
 

@@ -45,15 +45,3 @@ def test_the_printed_coefficient_of_a_tilted_contact() -> None:
     N_left = 2 / np.pi * np.sqrt(c / (a * (a + c)))
     assert_allclose(ends.m, a - abs(K_left) / (0.5 * N_left) - 0.01)
     assert_allclose(ends.n, c - abs(K_right) / (0.5 * N_left * a / c) + 0.005)
-
-
-@pytest.mark.slow
-@pytest.mark.usefixtures("wedge_alone")
-def test_the_printed_march_ends_as_the_printed_series_does() -> None:
-    of = common.cycle((1.0, 1.0), (0.1, 0.15), DQ, PULL, count=9)
-    marched = common.series_march(wedge, of, **GIVEN)["printed"]
-    first, second = (wedge.contact(1.0, M, **LAW) for M in (0.1, 0.15))
-    for at, begin, end in ((4, first, second), (8, second, first)):
-        moved = {"da": end.a - begin.a, "dc": end.c - begin.c}
-        ends = common.printed(wedge, end, DQ, PULL, **moved, **GIVEN)
-        assert_allclose((marched.m[at], marched.n[at]), (ends.m, ends.n))

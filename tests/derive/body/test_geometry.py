@@ -1,7 +1,7 @@
 """Parameters and bodies: what is accepted, and what is refused in which words."""
 
 import pytest
-from sympy import Expr, Max, Symbol, cosh
+from sympy import Expr, GoldenRatio, Max, Symbol, cosh, sqrt
 
 from derive import Geometry, parameter, x
 from derive.command.errors import BadName, DimensionMismatch, UnknownSymbol
@@ -78,6 +78,12 @@ def test_a_profile_that_is_no_length_is_refused(g: Expr) -> None:
     assert "a number has no unit, so replace" in caught.value.message
     has_parameters = bool(g.free_symbols - {x})
     assert ("check the units of the parameters" in caught.value.message) == has_parameters
+
+
+def test_numbers_that_have_a_name_are_written_by_their_roots() -> None:
+    """Proofs compute sqrt(5) to any number of digits, and know no golden ratio."""
+    radius = Symbol("R", positive=True)
+    assert Geometry("body", g=GoldenRatio * x**2 / R).g == (1 + sqrt(5)) / 2 * x**2 / radius
 
 
 def test_decimal_numbers_are_the_fractions_that_were_meant() -> None:

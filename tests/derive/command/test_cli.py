@@ -297,13 +297,11 @@ class TestGenerate:
         [
             (("cylinder.py", "twin.py", "--out", "new"), "two geometries are named 'cylinder'"),
             (("hertz", "clash.py", "--out", "new"), "two geometries are named 'hertz'"),
-            (("hertz", "--out", "cylinder.py/new"), "new"),
-            (("hertz", "--out", "link"), "'link', which is a broken link"),
             (("hertz", "--out", "link/deeper"), "'link', which is a broken link"),
         ],
         ids=" ".join,
     )
-    def test_two_bodies_of_one_name_a_folder_in_a_file_and_broken_links_are_refused(
+    def test_two_bodies_of_one_name_and_broken_links_are_refused(
         self, here: Path, arguments: tuple[str, ...], word: str
     ) -> None:
         for name, body in (("cylinder", "cylinder"), ("twin", "cylinder"), ("clash", "hertz")):
@@ -332,18 +330,6 @@ class TestCheck:
         assert told == {"wedge.py: changed", "__init__.py: missing"}
         assert "-mine = 1" in result.stdout and "derive generate" in result.stdout
         assert contents(committed) == before
-
-    def test_a_directory_of_one_s_own_is_checked_and_stays_absent(self, here: Path) -> None:
-        check = ("generate", "hertz", "--out", "new", "--check")
-        assert run(*check).exit_code == 1
-        assert contents(here) == {}
-        done(*check[:-1])
-        assert run(*check).exit_code == 0
-        (here / "new" / "hertz.py").write_text(f"{MARK}\n")
-        result = run(*check)
-        assert result.exit_code == 1
-        assert "hertz.py" in result.stdout
-        assert "derive generate hertz --out new" in result.stdout
 
 
 # ------------------------------------------------------------------ several processes
@@ -416,19 +402,6 @@ def test_a_signal_ends_every_process_and_writes_nothing(
 
 
 # ------------------------------------------------------------------ the bar
-
-
-@pytest.mark.parametrize("variable", ["FORCE_COLOR", "TTY_COMPATIBLE"])
-def test_what_moves_is_left_out_of_a_pipe(
-    variable: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Spinner and bar, however colours are asked for."""
-    monkeypatch.setenv(variable, "1")
-    with derive.command.terminal.status("reading") as update:
-        update("a: reading g(x)")
-    with derive.command.terminal.progress(1, STAGES) as step:
-        step("a", STAGES[0])
-    assert capsys.readouterr().err == ""
 
 
 def test_what_takes_long_is_told_once_where_nothing_moves(

@@ -11,7 +11,6 @@ from ruff import find_ruff_bin
 
 from derive.body.library import load_geometry
 from derive.command.errors import BadTarget, OpenUnits
-from derive.command.files import place_of_geometry as place
 from derive.command.files import put_page
 from derive.command.new_geometry import NEUTRAL, Wanted, new_geometry
 from derive.reading.profile import read
@@ -132,15 +131,6 @@ def test_titles_and_meanings_are_kept_and_never_run(words: str, tmp_path: Path) 
 # The place
 
 
-def test_a_file_goes_to_the_current_directory_a_directory_or_a_path(here: Path) -> None:
-    (here / "folder").mkdir()
-    (here / "folder.py").mkdir()
-    assert place("body", None) == Path("body.py")
-    for out in ("folder/body.py", "folder.py/body.py"):
-        assert place("body", Path(out).parent) == Path(out)
-    assert place("body", Path("folder/mine.py")) == Path("folder/mine.py")
-
-
 @pytest.mark.parametrize(
     ("failure", "error"), [(FULL, BadTarget), (KeyboardInterrupt(), KeyboardInterrupt)], ids=repr
 )
@@ -181,10 +171,3 @@ def test_the_options_are_heard(here: Path) -> None:
     assert (loaded.name, loaded.description) == ("blunt", "Blunt.")
     meant = {q.name: (q.meaning, q.unit) for q in loaded.parameters}
     assert meant == {"R": ("radius, 1/R = 1/R1 + 1/R2", "m"), "phi": ("slope", "rad")}
-
-
-@pytest.mark.parametrize("text", ["-phi*Min(x, -x)", "-h0 + phi*Abs(x)", "- phi*Min(x, -x)"])
-@pytest.mark.usefixtures("in_this_process")
-def test_a_formula_may_begin_with_a_minus(text: str, here: Path) -> None:
-    done("new", "wedge_2", text)
-    assert load_geometry(here / "wedge_2.py").g.has(load_geometry("wedge").parameters[0].symbol)

@@ -55,14 +55,6 @@ y, n = symbols("y n", positive=True)
 AT = {y: Rational(3, 10), n: Rational(7, 5)}
 
 
-@pytest.mark.parametrize("text", ["0.1", "-3", "0", "1e-400", "1e300", "-7.25e-9"])
-def test_there_and_back_no_bit_is_lost(text: str) -> None:
-    with mpmath.workdps(60):
-        value = mpf(text)
-        assert number(ball(value)) == value
-        assert number(ball(mpc(1, value))) == mpc(1, value)
-
-
 @pytest.mark.parametrize(
     "expr",
     [

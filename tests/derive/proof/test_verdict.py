@@ -6,6 +6,7 @@ import pytest
 from mpmath import inf, mpf, nan, workdps
 
 from derive.proof.verdict import (
+    DIGITS,
     POINTS,
     WORKING,
     Comparison,
@@ -45,6 +46,14 @@ def test_digits_are_relative_and_never_overstated(power: int, scale: mpf) -> Non
     with workdps(WORKING + 20):
         gap = mpf(3) * mpf(10) ** -(power + 1)  # 3e-(p+1): more than p digits, less than p + 1
         assert comparison(scale, scale * (1 + gap)).digits == power
+
+
+def test_agreement_at_every_point_is_numerical_and_the_worst_point_is_reported() -> None:
+    some = agreeing(POINTS)
+    assert numerical_proof("a route", some) == Proof(Verdict.NUMERICAL, "a route", POINTS, WORKING)
+    with workdps(WORKING):
+        some[7] = comparison(ONE, ONE + mpf(10) ** -(DIGITS + 3) / 2, some[7].point)
+    assert numerical_proof("a route", some).digits == DIGITS + 3
 
 
 @pytest.mark.parametrize("count", [0, POINTS - 1])
