@@ -8,7 +8,7 @@ from sympy import Symbol, symbols
 
 from derive.check.claim import Claim, Verdict
 from derive.check.judge import Judged
-from derive.check.report import explanation, summary
+from derive.check.report import explanation
 from derive.check.schema import Entry
 from derive.check.verdict import Finding
 from derive.command.files import MARK
@@ -377,9 +377,3 @@ def test_readers_see_the_number_of_an_equation_and_no_latex(
     assert claim.name == label or label not in explained
     assert claim.is_called(label) and claim.is_called(name) and not claim.is_called("(9)")
     assert claim.is_called("(8)") and claim.is_called("eq. (8)") and claim.is_called("8")
-
-
-def test_numbers_of_verdicts_are_grammatical() -> None:
-    verdicts = (Verdict.HOLDS, Verdict.FAILS, Verdict.FAILS, Verdict.NUMERICAL)
-    findings = [Finding(Claim(Entry("it", "here", "so")), Judged(v, "")) for v in verdicts]
-    assert summary(findings) == "4 claims: 1 holds, 1 numerical, 2 fail"

@@ -79,7 +79,6 @@ def judged(folder: Path, printed: str, end: str = "", head: str = HEAD) -> Findi
 MISPRINTS = {
     HEAD: [
         ("diff(P, a) = pi*E_star*c/(2*R)", "diff(P, a) = pi*E_star*a/(2*R)"),
-        ("pressure(0, c, c) = (a/c)*p_0", "pressure(0, c, c) = c*p_0/a"),
         ("p_0 = (P*E_star/(pi*R))**2", "p_0 = sqrt(E_star*P/(pi*R))"),
         ("cos(t)/sin(t)*n = n*tan(t)", "n*sin(t)/cos(t) = n*tan(t)"),
         ("n*cos(t)**2 = n*(1 - cos(t)**2)", "n*cos(t)**2 = n*(1 - sin(t)**2)"),
@@ -89,7 +88,6 @@ MISPRINTS = {
             "(t + sqrt(pi*n))**2 = pi*n + t**2 + 2*t*sqrt(pi*n)",
         ),
         ("gamma_function(n + 1) = n*gamma_function(n/2)", "gamma(n + 1) = n*gamma(n)"),
-        ("(n + t)**2 = n**2 + 3*n*t + t**2", "(n + t)**2 = n**2 + 2*n*t + t**2"),
         ("(a + c)**2 = a**2 + 2*a*c + c", "(a + c)**2 = a**2 + 2*a*c + c**2"),
         # for x**2 > a**2, sqrt(1/w) and 1/sqrt(w) are imaginary and have opposite signs
         (
@@ -103,17 +101,13 @@ MISPRINTS = {
         ),
         ("2*a < a", "2*a > a"),
         ("p_0 = 2*P/a", "p_0 = 2*P/(pi*a)"),
-        ("K_N = p_0/sqrt(a)", "K_N = sqrt(2)*p_0/sqrt(a)"),
+        ("K_N = p_0/sqrt(a)", "K_N = p_0*sqrt(2/a)"),
         ("Q/(f*P) = 1 - l/a", "Q/(P*f) = 1 - l**2/a**2"),
         ("Q = f*P*(1 - l/a)**2", "Q = P*f*(1 - l**2/a**2)"),
-        ("1 - l/a = 1 - (1 - Q/(f*P))**2", "1 - l/a = 1 - sqrt(1 - Q/(P*f))"),
         ("l/a = sqrt(1 + Q/(f*P))", "l/a = sqrt(1 - Q/(P*f))"),
         ("l = sqrt(1 - Q/(f*P))", "l = a*sqrt(1 - Q/(P*f))"),
-        ("a**2 = 4*P*R/pi", "a**2 = 4*P*R/(pi*E_star)"),
         ("a = 4*P*R/(pi*E_star)", "a = 2*sqrt(P*R/(pi*E_star))"),
         ("p_0 = sqrt(P*E_star/pi)", "p_0 = sqrt(E_star*P/(pi*R))"),
-        ("diff(P, a) = pi*E_star/(2*R)", "diff(P, a) = pi*E_star*a/(2*R)"),
-        ("l = sqrt(a**2 - 4*Q*R/(pi*f))", "l = sqrt(a**2 - 4*Q*R/(pi*E_star*f))"),
         ("p_at_x = p_0*sqrt(1 - x/a)", "p_at_x = p_0*sqrt(1 - x**2/a**2)"),
         ("p_at_x = p_0*sqrt(a**2 - x**2)", "p_at_x = p_0*sqrt(a**2 - x**2)/a"),
         (
@@ -121,7 +115,6 @@ MISPRINTS = {
             "q_at_x = f*p_0*(sqrt(1 - x**2/a**2) - l*sqrt(1 - x**2/l**2)/a)",
         ),
         ("Q/(f*P) = cos(phi_0)", "Q/(P*f) = cos(phi_0)**2"),
-        ("Q/(f*P) = sin(phi_0)**2", "Q/(P*f) = cos(phi_0)**2"),
         ("K_N = p_0*sqrt(2*a)", "K_N = p_0*sqrt(2/a)"),
         ("P = 2*integral(p_at_s, s, 0, l)", "P = 2*integral(p_at_s, s, 0, a)"),
         # an end of an integral comes before a factor
@@ -136,12 +129,7 @@ MISPRINTS = {
         ("alpha = 2*phi/pi*acos((a - c)/(a + c))", "alpha = 2*phi*asin((a - c)/(a + c))/pi"),
         ("c/a = tan(theta/2)**2", "c/a = cot(theta/2 + pi/4)**2"),
         ("P = E_star*phi*a*c", "P = E_star*phi*sqrt(a*c)"),
-        ("M = P*(a + c)/4", "M = P*(a - c)/4"),
         ("K_N = 2*E_star*phi/pi*sqrt(c/(a + c))", "K_N = 2*E_star*phi*sqrt(c/(a*(a + c)))/pi"),
-        (
-            "K_N = 2*E_star*phi/pi*sqrt(a/(c*(a + c)))",
-            "K_N = 2*E_star*phi*sqrt(c/(a*(a + c)))/pi",
-        ),
     ],
     FLAT: [
         (
@@ -157,10 +145,6 @@ MISPRINTS = {
         (
             "K_T = dQ/(pi*sqrt(2*a)) + sqrt(2*a)/8",
             "K_T = dQ*sqrt(2/a)/(2*pi) + dsigma*sqrt(2*a)/8",
-        ),
-        (
-            "integral(p_at_s, s, 0, c) = P/pi*asin(c)",
-            "integral(p_at_s, s, 0, c) = P*asin(c/a)/pi",
         ),
         (
             "integral(p_at_s, s, 0, a) = P/pi*acos(c/a)",

@@ -130,7 +130,6 @@ CASES = [
     (FREE, "sum(F, psi, 1, 2) = 2*F", "", "unchecked"),
     (FREE, "integral(F, psi, 0, 1) = F", "", "unchecked"),
     (FREE, "diff(F, psi) = 0", "", "unchecked"),
-    (FREE, "sum(G, n, 1, 2) = 2*G", "", "unchecked"),  # G is n**2
     (FREE, "limit(F, w, 0) = 1", "", "by definition"),
     (FREE, "sum(n**2, n, 1, 2) = 5", "", "holds"),
     (HERTZ, "limit(Q, c, a) = Q", "", "unchecked"),
@@ -157,21 +156,17 @@ CASES = [
     (FREE, "d*(2 + sin(1/d)) = 0", 'as = "d -> 0"\norder = 1', "unchecked"),
     (FREE, "abs(x) = x", 'as = "x -> 0"\norder = 2', "fails"),  # from below
     # how near to the limit, and how precisely, the sides are compared
-    (FREE, "n ~ 0.7071067811865475*n", N_0, "fails"),
     (FREE, "n ~ n*(1 + 10**(-30))", N_0, "fails"),
     (HERTZ, "(a - c)/a ~ Q/(sqrt(2)*f*P)", 'as = "Q -> 0"', "fails"),
     (FREE, "n/(n + 10**(-20)) ~ 1", N_0, "fails"),
     (FREE, "n/(n + 10**(-20)) = 0", f"{N_0}\norder = 1", "numerical"),
     (FREE, "2*n + 10**(-25)*sqrt(n) = 0", f"{N_0}\norder = 1", "fails"),
     (FREE, "2*n + 10**(-30)*sqrt(n) = 0", f"{N_0}\norder = 1", "unchecked"),
-    (FREE, "n + n**0.999/1000 = 0", f"{N_0}\norder = 1", "fails"),
-    (FREE, "n + n**1.001/1000 = 0", f"{N_0}\norder = 1", "numerical"),
     (FREE, "n*(1 - 1/log(n)) = 0", f"{N_0}\norder = 1", "numerical"),
     (FREE, "sin(n) = n - n**3/6", f"{N_0}\norder = 5", "numerical"),
     (FREE, "sin(n) = n - n**3/6", f"{N_0}\norder = 5.001", "fails"),
     (FREE, "elliptic_k(1 - n) = log(4) - log(n)/2", f"{N_0}\norder = 0.9", "numerical"),
     (FREE, "elliptic_k(1 - n) = log(4) - log(n)/2", f"{N_0}\norder = 1", "fails"),
-    (FREE, "integral(sin(s), s, 0, n) = n**2/2", f"{N_0}\norder = 4", "numerical"),
     (FREE, "integral(sin(s), s, 0, n) = n**2/2", f"{N_0}\norder = 5", "fails"),
     (FREE, "k*(0.9 - k) ~ 0.9*(0.9 - k)", 'as = "k -> 0.9"', "numerical"),
     # values at an edge, and at the end of a stick zone
@@ -181,7 +176,6 @@ CASES = [
     (HERTZ, "pressure(c, a, a) - pressure(c, c, c) = E_star*(a - c)/(2*R)", "", "fails"),
     # what is true by the definitions alone
     (CIRCULAR, "p_0 = 3*P/(2*pi*a)", "", "by definition"),
-    (CIRCULAR, "P = 2*pi*a*p_0/3", "", "by definition"),
     (CIRCULAR, "p_0**2 = 9*P**2/(4*pi**2*a**2)", "", "by definition"),
     (CIRCULAR, "(p_0 + 1)**2 - 1 = 3*P/(pi*a) + 9*P**2/(4*pi**2*a**2)", "", "by definition"),
     (CIRCULAR, "diff(p_0*a, a) = 3/(2*pi)*diff(P, a)", "", "by definition"),
@@ -194,14 +188,10 @@ CASES = [
     (FREE, "k*m <= 0.9", "", "holds"),  # equal in a corner
     (FREE, "k*m < 0.9", "", "unchecked"),
     (FREE, "w > 0.5", "", "unchecked"),
-    (FREE, "m > 0", "", "unchecked"),
     (FREE, "1/(k - 0.4321) > -10**9", "", "fails"),
     (FREE, "1/(k - 0.4321) < 10**30", "", "fails"),
-    (FREE, "1/(k - m) < 10**9", "", "fails"),
     (FREE, "1/(k - 0.4321)**2 > 1", "", "holds"),
-    (FREE, "log(abs(k - 0.3)) > -40", "", "fails"),
     (FREE, "(k - 0.54321)**2 > 10**(-20)", "", "fails"),
-    (FREE, "(k - 0.54321)**2 > -10**(-20)", "", "holds"),
     (FREE, "(k - 0.54321)**2 > 0", "", "unchecked"),
     (FREE, "(a - d)**2 + (a - w)**2 > 0", "", "unchecked"),
     (FREE, "a**2 + d**2 >= 2*a*d", "", "holds"),
@@ -219,12 +209,10 @@ CASES = [
     (FREE, "1/(k - 0.3) > 0", 'require = "k > 0.3"', "holds"),
     (FREE, "1/(k - 0.3) > 0", 'require = "k > 0.29"', "fails"),
     (FREE, "a < 10**7", "", "unchecked"),
-    (HERTZ, "P < 10**20*E_star*a", "", "unchecked"),  # false if a is large enough
     (HERTZ, "P < 10**20*E_star*(R + a)*a/R", "", "numerical"),
     (STEEL, "p < E_star*a/(2*R)", "", "unchecked"),  # equal at x = 0
     # roots, inverse functions, kinks and periods
     (SIGNED, "sqrt(v**2) = v", "", "fails"),
-    (SIGNED, "sqrt((v - 3)*(y - 3)) = sqrt(v - 3)*sqrt(y - 3)", "", "fails"),
     (SIGNED, "atan(v) + atan(y) = atan((v + y)/(1 - v*y))", "", "fails"),
     (SIGNED, "Max(v, y) = (v + y + abs(v - y))/2", "", "numerical"),
     (SIGNED, "Max(v, -2.99999999) = v", "", "fails"),
@@ -267,7 +255,6 @@ CASES = [
         (SIGNED, f"integral({pole}, s, -1, 1) = 0", "", r"unchecked: write pv, or \fint in LaTeX")
         for pole in ("1/s**2", "1/(s - 0.3)")
     ),
-    (SIGNED, "a = a + exp(-(10**6*(a - 1.7))**2)", "", "fails"),
     (SIGNED, "a = a + exp(-(10**6*(a - b))**2)", "", "fails"),
     (SIGNED, "a = a + 1/(1 + (10**20*(a - 17))**2)", "", "fails"),
     (SIGNED, "integral(1 + exp(-(1000*(s - 0.3))**2), s, 0, 1) = 1", "", "fails"),
@@ -284,8 +271,6 @@ CASES = [
     (SIGNED, "atan((1 + x)/(1 - x)) = atan(x) + pi/4", "", "fails"),  # for x < 1 only
     (SIGNED, "tanh(a) < 1", "", "holds or numerical"),  # nearer than any digits where a is large
     (SIGNED, "tanh(40 + a) = 1", "", "fails"),
-    (SIGNED, "abs(a - 1000) = 1000 - a", "", "fails"),
-    (SIGNED, "a < 100000", "", "fails"),
     (SIGNED, "a > 0.0001", "", "fails"),
     (SIGNED, "w < 0.8999", "", "fails"),
     (SIGNED, "a + 1/a > 2.000000001", "", "fails"),

@@ -149,19 +149,6 @@ DAY = "1979-05-27"
 """A date in TOML, which no key allows."""
 
 
-@pytest.mark.parametrize("key", sorted(KEYS))
-def test_a_key_of_a_file_with_a_value_of_another_type(key: str, tmp_path: Path) -> None:
-    text = f"{key} = {DAY}\n"
-    if key == "title":
-        text += CIRCLE.replace('title = "A disc"\n', "")
-    elif key != "claims":
-        text += one("1 = 1")
-    done = run(written(tmp_path, text))
-    assert done.exit_code == 2, done.output
-    assert key in done.stderr and "Traceback" not in done.stderr
-    assert len(done.stderr.splitlines()) == 1
-
-
 @pytest.mark.parametrize("key", sorted(OF_A_CLAIM - {"label", "printed"}))
 def test_a_key_of_a_claim_with_a_value_of_another_type(key: str, tmp_path: Path) -> None:
     text = CIRCLE.replace("printed", "latex") if key in ("part", "understood") else CIRCLE

@@ -93,7 +93,6 @@ def test_what_the_least_curvature_demands(g: Expr, wanted: list[str]) -> None:
         Max(0, x - b) ** 7 / L**6 + Max(0, -x - b - B) ** 5 / R**4 + phi * Abs(x - b / 2),
         phi * b * log(cosh(x / b)),  # 1 - tanh^2 is rounded to less than zero far away
         pi * x**2 / R + E * Max(0, x - b) ** 3 / L**2,  # SymPy isolates no roots beside pi and E
-        sqrt(2) * (x - sqrt(3) * b) ** 4 / R**3 + log(2) * Max(0, x - sqrt(3) * b) ** 5 / b**4,
         # exp(99999 x/b) is no power of exp(x/b) to be factored: minutes would pass
         x**2 / b + b * exp(99999 * x / b),
         b * log(exp(99999 * x / b) + 1)
@@ -129,17 +128,14 @@ def test_a_body_convex_for_some_parameters_or_none_is_refused_as_such(g: Expr, w
     assert "numbers" in caught.value.remedy or why is NONE
 
 
-# Three places a decade miss each: g'' b is least near x = 5.7 b, 7 b, 7 b and 3 b.
+# Three places a decade miss both: g'' b is least near x = 7 b.
 NARROW: dict[str, Callable[[Rational], Expr]] = {
-    "tanh": lambda size: size * 3 * b * tanh(x / b - 5),
     "atan": lambda size: size * b * atan(30 * (x / b - 7)) / 50,
     "steep tanh": lambda size: size * b * tanh(1000 * (x / b - 7)) / 370370,
-    "steep bell": lambda size: size * b * exp(-((100 * (x / b - 3)) ** 2)) / 50,
 }
 """Beside x**2/b, g'' is below zero at a narrow place only for size = 1, nowhere for 1/400."""
 
 
-@pytest.mark.enough("steep tanh", "atan")
 @pytest.mark.parametrize("name", NARROW)
 def test_a_curvature_that_is_negative_at_a_narrow_place_only_is_found(name: str) -> None:
     with pytest.raises(BadProfile) as caught:

@@ -3,11 +3,9 @@
 What it refuses: test_bad_inputs.py.
 """
 
-import subprocess
 from pathlib import Path
 
 import pytest
-from ruff import find_ruff_bin
 
 from derive.body.library import load_geometry
 from derive.command.errors import BadTarget, OpenUnits
@@ -99,15 +97,6 @@ def test_a_text_makes_the_body_that_was_written_by_hand(name: str, tmp_path: Pat
     assert (made.g - geometry(name).g).simplify() == 0
     by_hand = {p.name: p.unit for p in BODIES[name].g.free_symbols if p.name != "x"}
     assert {q.name: q.unit for q in made.parameters} == by_hand
-
-
-def test_the_file_passes_the_linter() -> None:
-    text = new_geometry(Wanted("assorted", "max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4"))[1]
-    strict = ["--isolated", "--line-length=100", "--select=E,F,I,D1,RUF", "-"]
-    checked = subprocess.run(
-        [find_ruff_bin(), "check", *strict], input=text, text=True, capture_output=True
-    )
-    assert checked.returncode == 0, checked.stdout
 
 
 TITLES = [

@@ -7,6 +7,7 @@ import time
 from multiprocessing import active_children
 from pathlib import Path
 
+import psutil
 import pytest
 
 from derive.command.errors import NotProven, RanAway
@@ -124,7 +125,6 @@ in_processes(fails, ["wait", "wait"], tell, 2)
 """
 
 
-@pytest.mark.skipif(not Path("/proc/self").exists(), reason="looks for processes in /proc")
 def test_no_process_or_file_outlives_one_that_was_killed(tmp_path: Path) -> None:
     killed = subprocess.Popen(
         [sys.executable, "-c", ORPHANS],
@@ -135,29 +135,10 @@ def test_no_process_or_file_outlives_one_that_was_killed(tmp_path: Path) -> None
     )
     assert killed.stdout is not None
     assert [killed.stdout.readline() for _ in range(2)] == ["wait\n", "wait\n"]
-    children = offspring(killed.pid)
+    children = psutil.Process(killed.pid).children()
     assert len(children) >= 2
     killed.kill()
     killed.communicate()
-    until = time.monotonic() + 30
-    while any(map(alive, children)) and time.monotonic() < until:
-        time.sleep(0.1)
-    assert not any(map(alive, children))
+    _, alive = psutil.wait_procs(children, timeout=30)
+    assert not alive
     assert [*tmp_path.iterdir()] == []
-
-
-def status(pid: int) -> list[str]:
-    """State and parent of a process; none if it is gone."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[:2]
-    except OSError:
-        return []
-
-
-def offspring(pid: int) -> list[int]:
-    numbers = [int(p.name) for p in Path("/proc").iterdir() if p.name.isdigit()]
-    return [number for number in numbers if status(number)[1:] == [str(pid)]]
-
-
-def alive(pid: int) -> bool:
-    return status(pid)[:1] not in ([], ["Z"])

@@ -48,14 +48,6 @@ def test_integrals_by_hand_lie_in_the_ball(
         assert found.rad() < arb(10) ** -DIGITS
 
 
-def test_digits_that_cancel_are_made_up_for() -> None:
-    """(1 - cos t)/t^2 down to t = 1e-30: of 60 digits nothing is left, of three times 50 enough."""
-    with mpmath.workdps(50):
-        low, high = mpf(10) ** -30, mpf(10) ** -29
-        wanted = (high - low) / 2  # up to t^2/24
-        assert close(number(integral(lambda t: (1 - t.cos()) / t**2, [low, high])), wanted)
-
-
 @pytest.mark.parametrize("power", ["-0.9", "-0.99"])
 def test_what_is_not_computed_well_has_a_wide_ball(power: str) -> None:
     """int_0^1 t**power dt = 1/(1 + power), which rests on places nearer to 0 than any node."""

@@ -90,8 +90,6 @@ CODE = [
     ("(y := x)", 3, ": has no meaning", "as in Python"),
     ("y = x", 2, "an assignment", "right-hand side"),
     ("x[0]", 1, "[ is not allowed", "( )"),
-    ("x if b else R", 2, "if is not allowed", "Piecewise"),
-    ("x\\b", 1, "\\ has no meaning", "as in Python"),
 ]
 
 CHARACTERS = [
@@ -99,30 +97,24 @@ CHARACTERS = [
     ("x²/R", 1, "SUPERSCRIPT TWO (U+00B2)", "write **"),
     ("х**2/R", 0, "CYRILLIC SMALL LETTER HA (U+0445)", "ASCII"),
     ("x − b", 2, "MINUS SIGN (U+2212)", "write -"),
-    ("１*x", 0, "FULLWIDTH DIGIT ONE", "ASCII"),
     ("x\u202e + b", 1, "RIGHT-TO-LEFT OVERRIDE", "ASCII"),
     ("x\0", 1, "'\\x00' is a character without a name", "ASCII"),
     ("x\udc80", 1, "U+DC80", "ASCII"),
-    ("x == b", 2, "== is not allowed", "<="),
     ("x // 2", 2, "rounds down", "write /"),
 ]
 
 GRAMMAR = [
     ("", 0, "empty", "x**2/(2*R)"),
     ("2x", 1, "operator is missing", "2*x"),
-    ("1_000*x", 1, "operator is missing", "2*x"),
     ("R(x)", 0, "R is not a function", "R*(...)"),
     ("Abs*x", 0, "Abs is a function", "Abs(...)"),
     ("Abs()", 4, "missing before )", "add it"),
-    ("Abs(x, b)", 0, "Abs takes one argument, but 2 are given", "others"),
     (f"Max({', '.join('x' * 21)})", 0, "Max takes at most 20", "others"),
     ("x +", 3, "ends too early", "add a number"),
-    ("*x", 0, "missing before *", "add it"),
     ("(x", 2, "not closed", "add )"),
     ("x)", 1, "no matching (", "add ("),
     ("2,5*x", 1, "a comma", "2.5"),
     ("|x|", 0, "|x| cannot be used", "Abs(x)"),
-    ("and x", 0, "and is not allowed", "leave it out"),
     ("(" * 10**6 + "x" + ")" * 10**6, LONGEST, "2000001 characters", "shorten"),
     ("(" * 200 + "x" + ")" * 200, DEEPEST, "nested deeper than 30", "fewer"),
     ("x**" * 200 + "x", 3 * DEEPEST + 1, "nested deeper than 30", "fewer"),
@@ -131,7 +123,6 @@ GRAMMAR = [
 NAMES = [
     ("n*x", 0, "parameter 'n' is reserved by the theory", "letters and digits"),
     ("x*w_1", 2, "reserved by the theory", "letters and digits"),
-    ("_b*x", 0, "cannot be used as a name", "letters and digits"),
     ("Geometry*x", 0, "used by the geometry file itself", "letters and digits"),
 ]
 
@@ -149,7 +140,6 @@ MEANING = [
     ("(x + b + R + k)**50", 15, "1000 terms", "another"),
     ("x**60*x**60", 5, "powers above 100", "another"),
     ("exp(exp(exp(9)))", 4, "above 1e100 or below 1e-100", "another"),
-    ("1e101*x", 0, "number is too long", "40 digits"),
     ("9" * 1000, 0, "number is too long", "40 digits"),
     ("*".join(["1e90"] * 20), 4, "above 1e100 or below 1e-100", "another"),
 ]
