@@ -3,13 +3,14 @@
 import mpmath
 import pytest
 from mpmath import mpf
+from sympy import Abs, Expr, Max, Min, Rational, S
 
 from derive import Geometry, x
 from derive.proof.points import Point, numeric
 from derive.proof.quadrature import Contact, slope_as_given
 from derive.symbols import E_star, a, c
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, CASES, VALUES, close, geometry
+from tests.derive.bodies import BODIES, CASES, VALUES, b, close, geometry
 
 
 def contact(
@@ -65,3 +66,13 @@ def test_it_takes_the_slope_from_g_as_written_and_agrees_with_another_quadrature
     assert close(here.tilt, integrals.tilt(*over), scale=1)
     assert close(here.load, integrals.load(*over, E))
     assert close(here.moment, integrals.moment(*over, E), scale=here.load)
+
+
+@pytest.mark.parametrize("ramp", [(x + Abs(x)) / 2, x - Min(0, x), Max(0, x)])
+@pytest.mark.parametrize("power", [S(3), Rational(5, 2)])
+def test_powers_of_a_ramp(ramp: Expr, power: Expr) -> None:
+    """x**2 + ramp**n on [-1, 1]: alpha = -(n/pi) int_0^1 s**(n - 1)/sqrt(1 - s**2) ds."""
+    body = Geometry("ramp", x**2 / b + ramp**power / b ** (power - 1))
+    n, one = mpf(power.p) / power.q, mpf(1)
+    here = contact(body, 1, 1, b=1)
+    assert close(here.tilt, -n * mpmath.beta(n / 2, one / 2) / (2 * mpmath.pi))
