@@ -111,6 +111,9 @@ def test_every_way_to_write_a_body_has_one_slope(g: Expr, base: Expr, kinks: lis
     [
         (phi * (Abs(x - b) + Abs(x - 2 * b) + Abs(x + 3 * b)), ["-3*b", "b", "2*b"], [-1, 1, 1]),
         (Max(0, x**2 - R * R1) / R, ["-sqrt(R)*sqrt(R1)", "sqrt(R)*sqrt(R1)"], [-1, 1]),
+        # the root of a square is a modulus
+        (sqrt(x**2 - 2 * x * b + b**2) * phi + 4 * x**2 / b, ["b"], [1]),
+        (sqrt(x**2 - 2 * sqrt(3) * x * b + 3 * b**2) * phi + 4 * x**2 / b, ["sqrt(3)*b"], [1]),
         # where the origin lies may be open: b - b2 may be of either sign
         (phi * Max(Abs(x - b) - b2, 0) + x**2 / R, ["b - b2", "b + b2"], [-1, 1]),
         # what the refusal of an open order proposes: b2 = b + gap
@@ -191,6 +194,8 @@ def test_an_exponent_must_lie_above_one() -> None:
     assert str(found.demands) == "(k > 1,)"
     assert found.kinks[0].step == 0
     assert found.limits == (-oo, oo)
+    beside = slope(b * (Abs(x) / b) ** k + phi * sqrt(x**2 + b**2))  # outgrown by |x|**(k - 2)
+    assert [str(demand) for demand in beside.demands] == ["k > 1"]
 
 
 def test_a_corner_whose_sign_hangs_on_a_parameter() -> None:
