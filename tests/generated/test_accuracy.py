@@ -26,7 +26,7 @@ CASES = [
 @pytest.mark.parametrize(("body", "name"), CASES)
 def test_functions_are_within_their_bounds(body: str, name: str) -> None:
     of_cycles = name.startswith(("stick", "shear", "march"))
-    rows = [*worst_of(body, name, 20 if of_cycles or body == "hyperbola" else 40)]
+    rows = [*worst_of(body, name, 10 if of_cycles or body == "hyperbola" else 30)]
     assert {BULK, EXTREME} <= {row.region for row in rows} or of_cycles or body == "hyperbola"
     for row in rows:
         is_given = not row.lost or (of_cycles and body != "hyperbola")

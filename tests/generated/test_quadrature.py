@@ -98,11 +98,6 @@ CENTRAL = [
 ]
 """Edges a and c: central, lopsided, wide, off the origin on either side, close to a kink."""
 
-CONTACTS = {
-    "power": [(1.0, 0.5), (1.0, -1e-9)],
-    "hyperbola": [(-0.25, 1.0), (20.0, 30.0)],
-}
-
 
 def close(found: float, wanted: mpf, size: mpf) -> bool:
     return bool(abs(mpf(float(found)) - wanted) <= 1e-12 * size)
@@ -156,7 +151,7 @@ def test_a_profile_in_no_library() -> None:
         assert sum(demand(body, *edges) for edges in CENTRAL) >= 6
         for edges in CENTRAL[:3]:
             demand_series(body, *edges)
-        halves, shifts = (2.0**-4, 2.0**-12, 2.0**-21), (0.0, 0.375, 1.75)
+        halves, shifts = (2.0**-4, 2.0**-21), (0.375, 1.75)
         for kink, half, shift in product(body.kinks, halves, shifts):
             mid = kink + shift * half
             demand(body, half - mid, half + mid, digits=80)
@@ -170,13 +165,6 @@ def test_a_corner_between_straight_flanks() -> None:
         assert math.isnan(body.module.load(-0.05, 0.2, **body.law))
         assert body.module.pressure(0.0, 1.0, 1.0, **body.law) == math.inf
         assert 0 < body.module.pressure(1e-300, 1.0, 1.0, **body.law) < 100
-
-
-@pytest.mark.parametrize("name", OTHERS)
-def test_what_is_integrated(name: str) -> None:
-    for edges in CONTACTS[name]:
-        assert demand(OTHERS[name], *edges)
-    demand_series(OTHERS[name], *CONTACTS[name][0])
 
 
 def test_what_is_no_contact_carries_nothing() -> None:

@@ -2,21 +2,18 @@
 
 import importlib
 import math
-from collections.abc import Iterator
 from types import ModuleType
 from typing import Any
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from mpmath import mpf
 from numpy.testing import assert_allclose, assert_array_equal
 
 from generated import hertz, unequal_wedge, wedge
 from generated.runtime.types import Contact, Regime, StickZone
-from tests.measure.accuracy.partial_slip import between, digits_of, patch
+from tests.measure.accuracy.partial_slip import between, digits_of
 from tests.measure.accuracy.reference import Problem
 
 pytestmark = pytest.mark.slow
@@ -61,7 +58,7 @@ def known(
 STILL, VARY = [(1.5, 1.25)] * 2, [FIRST, SECOND]
 
 
-@pytest.mark.enough("hertz-edges0*", "wedge-edges1*", "*edges8-*", "*edges11-*")
+@pytest.mark.enough("wedge-edges1*", "*edges8-*", "*edges11-*")
 @pytest.mark.parametrize(
     ("name", "edges", "part", "tension"),
     [
@@ -141,7 +138,7 @@ def one_cycle(
 @settings(max_examples=10)
 @given(a=size, c=size, share=part, pull=tension, da=nudge, dc=nudge)
 @example(a=1.5, c=1.25, share=0.2, pull=1.02, da=0.0, dc=0.0)  # slip turns round
-def test_the_mirror_swaps_the_edges(
+def test_the_mirror_swaps_the_edges_and_backwards_a_zone_is_the_same(
     a: float, c: float, share: float, pull: float, da: float, dc: float
 ) -> None:
     """x -> -x turns M, alpha and dsigma; the flanks of the unequal wedge change places."""
@@ -157,6 +154,8 @@ def test_the_mirror_swaps_the_edges(
     mirror = body.stick_zone(there, behind, shear, -dsigma, **turned, mixed=True)
     assert zone.regime == mirror.regime
     assert_allclose((zone.m, zone.n), (mirror.n, mirror.m), rtol=1e-11)
+    backwards = body.stick_zone(after, here, shear, dsigma, **law, mixed=True)
+    assert_allclose(backwards, zone, rtol=1e-11)
     mirror = body.tension_threshold(there, there, shear, **turned)
     limits = body.tension_threshold(here, here, shear, **law)
     assert_allclose(limits, (-mirror.upper, -mirror.lower), **near)
@@ -195,7 +194,7 @@ def test_the_mirror_swaps_the_edges(
 LENGTHS = ("R", "b", "R_1", "R_2")
 
 
-@pytest.mark.enough("wedge", "flat_rounded")
+@pytest.mark.enough("flat_rounded")
 @pytest.mark.parametrize("name", ["hertz", "wedge", "rounded_wedge", "flat_rounded", "two_radii"])
 def test_forces_and_lengths_scale(name: str) -> None:
     """Pa and m are free: random cycles, one with kinks in slip zones and at a place, and one in
@@ -230,12 +229,6 @@ def test_forces_and_lengths_scale(name: str) -> None:
 ONES = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
 
 
-def rocked(turn: float) -> Iterator[Contact]:
-    """Contacts of such a wedge under P = 1 and M from -turn/2 to turn/2."""
-    ends = wedge.contact(1.0, np.array([-turn / 2, turn / 2]), E_star=1.0, phi=1.0)
-    return (Contact(*(v[i] for v in ends)) for i in (0, 1))
-
-
 def test_slip_that_reverses_for_a_while_and_is_overtaken() -> None:
     """Wedge, P = E* = phi = 1, dQ = 0.3 f P: the independent solver of tests/reference finds the
     moderate zone exact up to a + n = 8 dQ/(pi dsigma), 0.9322 of the tension that closes a slip
@@ -251,17 +244,6 @@ def test_slip_that_reverses_for_a_while_and_is_overtaken() -> None:
         assert_allclose((zone.n if sign > 0 else zone.m)[1], 0.98878, atol=1.1e-4)
         moderate = wedge.contact_at_tilt(0.85, -sign * parts[:3] * closing / 2, E_star=1.0, phi=1.0)
         assert_allclose(zone.n[:3], moderate.c, rtol=1e-14)
-
-
-def test_pressure_that_falls_faster_than_shear_is_mixed() -> None:
-    """Wedge, P = E* = phi = 1, dQ = 0.3 f P, M from -0.2 to 0.2, 5 times the closing tension: m
-    and n of partial half-cycles fall as they should, but shear passes friction at the right; the
-    independent solver finds n = 0.59733, the conditions 0.59767."""
-    for turn, known in ((0.3, True), (0.4, False)):
-        zone = wedge.stick_zone(*rocked(turn), 0.15, 5 * 0.206021, **ONES)
-        assert zone.regime == (Regime.LARGE if known else Regime.MIXED)
-        if known:
-            assert_allclose((zone.m, zone.n), (0.38655, 0.60619), atol=4e-5)
 
 
 # ---------------------------------------------------------------------- single cycles
@@ -328,76 +310,6 @@ def test_an_edge_that_turns_round_on_the_way_leaves_the_smallest_contact() -> No
     assert np.all(np.diff(states.n[1:8]) <= 1e-15)  # what stuck since the reversal does not grow
 
 
-def elliptic(a: mpf, c: mpf, m: mpf, n: mpf) -> tuple[mpf, mpf]:
-    """Integrals of sqrt((a + x)(c - x)) r and sqrt((a + x)(c - x))/r, r = sqrt((x + m)/(x - n)).
-
-    Both extend from n to c.  With u = c - x they are sums of U_k = int u**k/sqrt(Q) du, where
-    Q = u (u1 - u)(u2 - u)(u3 - u), u1 = c - n, u2 = c + m and u3 = c + a.  The substitution
-    tau = (x - n)/u gives
-
-        U_k = u1**k/sqrt(u2 u3) int (1 + tau)**-k dtau/sqrt(tau (tau + alpha)(tau + beta))
-
-    with alpha = (a + n)/u3 and beta = (m + n)/u2.  For k = 0 and 1 these are Carlson's R_F and
-    R_J.  For k = 2 the derivative of sqrt(tau (tau + alpha)/(tau + beta))/(1 + tau) reduces the
-    integral to these and R_D; for k = 3 the derivative of sqrt(Q) reduces it to the other U_k.
-    If u1 is small, the terms nearly cancel, and float64 would lose a factor of about (h/u1)**2
-    in precision.  The program therefore uses quadrature.
-    """
-    u1, u2, u3 = c - n, c + m, c + a
-    alpha, beta = (a + n) / u3, (m + n) / u2
-    first = 2 * mpmath.elliprf(0, alpha, beta)
-    third = mpf(2) / 3 * mpmath.elliprj(0, alpha, beta, 1)
-    second = mpf(2) / 3 * mpmath.elliprd(0, alpha, beta)
-    mixed = (alpha * beta - 2 * alpha - 2 * beta + 3) * third + beta * (alpha - beta) * second
-    squared = (first / 2 + mixed / (2 * (beta - 1))) / (alpha - 1)
-    U = [u1**k / mpmath.sqrt(u2 * u3) * v for k, v in enumerate((first, third, squared))]
-    e1, e2, e3 = u1 + u2 + u3, u1 * u2 + u1 * u3 + u2 * u3, u1 * u2 * u3
-    U.append((e3 * U[0] - 2 * e2 * U[1] + 3 * e1 * U[2]) / 4)
-    return u2 * u3 * U[1] - (u2 + u3) * U[2] + U[3], u1 * u3 * U[1] - (u1 + u3) * U[2] + U[3]
-
-
-@pytest.mark.parametrize(("a", "c", "pull"), [(1.5, 1.25, 2.0), (0.5, 2.0, -3.0), (2.0, 2.0, 1.3)])
-def test_hertz_in_complete_elliptic_integrals(a: float, c: float, pull: float) -> None:
-    """Large tension: both conditions by Carlson's forms; the forms against their integrals."""
-    radius = 2.0
-    shear = 0.5 * F * float(hertz.load(a, c, E_star=E_STAR, R=radius))
-    dsigma = pull * 8 * shear / (np.pi * (a + c))
-    m, n, regime = steady(hertz, a, c, shear, dsigma, R=radius)
-    assert regime == Regime.LARGE
-    with mpmath.workdps(40):
-        given_edges = [mpf(float(v)) for v in (a, c, m, n)]
-        left, right, left_end, right_end = given_edges
-        near, far = elliptic(*given_edges)
-        for power, found in ((1, near), (-1, far)):
-
-            def integrand(t: mpf, power: int = power) -> mpf:
-                """At x = n + (c - n) sin(t)**2."""
-                y, rest = ((right - right_end) * of(t) ** 2 for of in (mpmath.sin, mpmath.cos))
-                root = mpmath.sqrt((left_end + right_end + y) / y) ** power
-                return 2 * mpmath.sqrt(y * rest * (left + right_end + y) * rest) * root
-
-            direct = mpmath.quad(integrand, [0, mpmath.pi / 2])
-            assert abs(found / direct - 1) < mpf(10) ** -30
-        near_left, far_left = elliptic(right, left, right_end, left_end)
-        scale = np.sign(pull) * F * E_STAR / radius  # f 2 p = f (E*/R) sqrt(..)
-        by_tension = mpmath.pi * dsigma * (left_end + right_end) / 8
-        off_right = scale * (far_left - near) - shear + by_tension
-        off_left = scale * (near_left - far) - shear - by_tension
-        assert max(abs(off_right), abs(off_left)) < 1e-14 * shear
-
-
-def test_one_edge_that_goes_out_and_one_that_comes_in_tell_nothing_of_what_is_between() -> None:
-    """Wedge, P = E* = phi = 1, M from -0.2 to 0.2: the pressure rests inside while shear goes on.
-    The independent solver finds slip to m = 0.6761 at 1.2 times the closing tension, inside both
-    contacts, whose smaller reach is 0.6770; without shear and tension nothing slips."""
-    first, second = rocked(0.4)
-    zone = wedge.stick_zone(first, second, 0.15, np.array([0.5, 1.2]) * 0.206021, **ONES)
-    assert np.all(zone.regime == Regime.MIXED) and np.all(np.isnan(zone.m))
-    still = wedge.stick_zone(first, second, 0.0, 0.0, **ONES)
-    assert still.regime == Regime.FULL_STICK
-    assert_allclose((still.m, still.n), min(first.a, first.c), rtol=1e-12)
-
-
 def test_large_tension_holds_at_every_part_of_the_way() -> None:
     """kappa dq >= 0 where slip is still to come, at eight parts of the half-cycle: what is tested
     at both of its ends alone holds in between."""
@@ -416,23 +328,3 @@ def test_large_tension_holds_at_every_part_of_the_way() -> None:
         for place, kappa in ((-zone.m, sense), (zone.n, -sense)):
             dq = wedge.shear_change(place, here, here, part * dQ, part * dsigma, **law)
             assert np.all((kappa * dq)[large] >= -1e-9)
-
-
-@pytest.mark.enough("wedge", "two_radii")
-@pytest.mark.parametrize(
-    "name",
-    ["wedge", "hertz", "flat_rounded", "unequal_wedge", "two_radii", "wedge_parabola"],
-)
-def test_moderate_tension_meets_both_conditions(name: str) -> None:
-    """P and M vary.  The patch is solved for in 50 digits, put into both conditions to 25, and the
-    generated zone is it."""
-    shear = F * sum(loads(name, FIRST, SECOND)) * 0.25
-    given = known(name, [FIRST, SECOND], shear, 2.0 * shear / 3)
-    ends = (Contact(*each, 0.0) for each in (FIRST, SECOND))
-    zone = module(name).stick_zone(*ends, shear, given["dsigma"], f=F, **law(name))
-    assert zone.regime == Regime.MODERATE
-    exact = Problem(patch(name)).answer(zone[:2], given)
-    assert_allclose(zone[:2], np.array(exact.numbers, float), rtol=2e-14)
-    with mpmath.workdps(32):
-        left_over = between(name, large=False)(exact.numbers, exact.given)
-        assert max(map(abs, left_over)) < mpf(10) ** -25 * shear

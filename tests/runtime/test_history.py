@@ -1,11 +1,10 @@
-"""Load histories and steady cycles: against closed forms, exact zones, the independent solver.
+"""Load histories and steady cycles: against closed forms and exact zones.
 
 What is known exactly is computed on elements, too, where a test asks for that.  Random histories
 beside the independent solver, tolerances, and steady cycles in phase: test_history_solver.py.
 """
 
 import math
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -15,11 +14,6 @@ import generated.hertz
 import generated.wedge
 from generated.runtime.history import public
 from generated.runtime.types import Regime, StickZone
-from tests.reference.friction import Friction
-from tests.reference.kernel import Surface
-from tests.reference.mesh import graded
-from tests.reference.normal import Body as Profile
-from tests.reference.normal import press
 
 hertz = generated.hertz, {"R": 1.0}
 wedge = generated.wedge, {"phi": 1.0}
@@ -79,37 +73,18 @@ def gap(n, x):
     return n**2 / 2 * (ratio * np.sqrt(ratio**2 - 1) - np.arccosh(ratio))
 
 
-def first_loading(Q, x):
-    """n = a sqrt(1 - Q/(f P)), q = f (p - p of [-n, n]); forward slip is 2 f times the gap beside
-    the patch, halved for a first rise."""
-    n = np.sqrt(1 - Q / (F * LOAD))
-    stuck = np.sqrt(np.maximum(n[:, None] ** 2 - x**2, 0))
-    return n, F / 2 * (np.sqrt(1 - x**2) - stuck), F * gap(n[:, None], x)
-
-
-FIRST = np.linspace(0.05, 0.95, 19) * F * LOAD, np.linspace(-0.97, 0.97, 41)
-
-
-def test_cattaneo_and_mindlin_first_loading(on_elements):
-    Q, x = FIRST
-    found = history(hertz, LOAD, 0.0, Q, 0.0, x=x)
-    n, q, slip = first_loading(Q, x)
-    assert np.all(found.regime == COMPUTED) and np.all(found.intervals == 1)
-    assert covered(found, n, n)
-    assert np.median(abs(found.n - n)) / 2 < 1e-3
-    assert np.mean(abs(found.q - q)) < 1e-3 * F * LOAD / 2
-    assert np.max(abs(found.slip - slip)) < 0.01 * np.max(slip)
-
-
 @pytest.mark.parametrize("sign", [1, -1])
 def test_first_loading_is_exact(sign):
-    Q, x = FIRST
+    """n = a sqrt(1 - Q/(f P)), q = f (p - p of [-n, n]); forward slip is 2 f times the gap beside
+    the patch, halved for a first rise."""
+    Q, x = np.linspace(0.05, 0.95, 19) * F * LOAD, np.linspace(-0.97, 0.97, 41)
     found = history(hertz, LOAD, 0.0, sign * Q, 0.0, x=x)
-    n, q, slip = first_loading(Q, x)
+    n = np.sqrt(1 - Q / (F * LOAD))
+    stuck = np.sqrt(np.maximum(n[:, None] ** 2 - x**2, 0))
     assert np.all(found.regime == Regime.MODERATE) and np.all(found.error == 0)
     assert found.m == pytest.approx(n, rel=1e-12) and found.n == pytest.approx(n, rel=1e-12)
-    assert sign * found.q == pytest.approx(q, abs=1e-12)
-    assert sign * found.slip == pytest.approx(slip, abs=1e-12)
+    assert sign * found.q == pytest.approx(F / 2 * (np.sqrt(1 - x**2) - stuck), abs=1e-12)
+    assert sign * found.slip == pytest.approx(F * gap(n[:, None], x), abs=1e-12)
 
 
 # ---------------------------------------------------------------- stacks of reversals
@@ -154,20 +129,6 @@ def test_a_loop_that_is_closed_is_forgotten():
     inner = once.work[4] - once.work[2]
     assert inner > 0
     assert thrice.work[-1] - once.work[-1] == pytest.approx(2 * inner, rel=1e-9)
-
-
-def test_work_of_reversals_is_what_friction_takes_where_it_slips():
-    """int f p slip dx by another rule; a first loading takes half of a branch twice as high."""
-    Q = np.array([0.3, -0.3, 0.3]) * F * LOAD
-    angle = np.linspace(-np.pi / 2, np.pi / 2, 40001)
-    x = np.sin(angle)
-    slip = 2 * F * gap(math.sqrt(0.7), x)
-    branch = np.trapezoid(F / 2 * np.cos(angle) ** 2 * slip, angle)
-    found = history(hertz, LOAD, 0.0, Q, 0.0)
-    assert found.work == pytest.approx(branch * np.array([0.5, 1.5, 2.5]), rel=1e-6)
-    found = steady_cycle(hertz, LOAD, 0.0, 0.3 * F * LOAD * np.sin(T), 0.0, x=x[::4000])
-    assert found.work == pytest.approx(2 * branch, rel=0.02)
-    assert found.slip_range == pytest.approx(slip[::4000], abs=0.02 * slip.max())
 
 
 @pytest.mark.parametrize(
@@ -261,7 +222,7 @@ def test_what_does_not_exist_is_nan():
     assert np.all(np.isnan(history(hertz, LOAD, 0.0, [0.1, 0.2], 0.0, f=-1.0).m))
 
 
-# ---------------------------------------------------------------- loops, the independent solver
+# ---------------------------------------------------------------- loops
 
 
 # P/P0, Q/(f P0) around a loop, and P_E/P0 by hand
@@ -304,29 +265,6 @@ def test_no_loop_is_exact_where_the_tilt_changes_or_it_slides():
     assert steady_cycle(hertz, P, 0.0, Q, [0.0, 0.1, 0.0]).regime == COMPUTED
     slides = steady_cycle(hertz, P, 0.0, [0.2 * F * LOAD, F * P[1], 0.0], 0.0)
     assert slides.regime == Regime.SLIDING and np.isnan(slides.m)
-
-
-def test_no_zone_sticks_beyond_the_mean_shear_load_that_it_can_hold():
-    """Large tension at constant loads, and a moment that rocks the contact.
-
-    By the solver alone, with a load that is a little out of phase: all slips from a mean of 0.67
-    and 0.75 of f P on.  In the second case it does from 0.15 on, although both ends of the
-    half-cycle alone would allow 0.163: dq falls in a part of the stick zone before it rises.
-    """
-    way, aside = np.array([1.0, 0.0, -1.0, 0.0]), 1e-5 * np.array([0.0, 1.0, 0.0, 0.0])
-    for sign, mean, shear, tension, regime in (
-        (1, 0.63, 0.1, 0.75, Regime.LARGE),
-        (-1, 0.71, 0.1, 0.75, Regime.NO_STICK),
-        (1, 0.14, 0.45, 9 / math.pi, Regime.LARGE),
-        (-1, 0.155, 0.45, 9 / math.pi, Regime.NO_STICK),
-    ):
-        Q, sigma = sign * F * LOAD * (mean + shear * way), tension * F * LOAD * way
-        assert steady_cycle(hertz, LOAD, 0.0, Q, sigma).regime == regime
-        computed = steady_cycle(hertz, LOAD, 0.0, Q, sigma + aside)
-        assert computed.regime == (COMPUTED if regime == Regime.LARGE else regime)
-    for mean, regime in ((-0.71, Regime.FULL_STICK), (0.79, Regime.NO_STICK)):
-        found = steady_cycle(hertz, LOAD, 0.2 * LOAD * way, mean * F * LOAD, 0.0)
-        assert found.regime == regime
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
@@ -492,79 +430,10 @@ def test_loads_that_turn_at_no_shear():
     assert exact.work[-1] - exact.work[2] == pytest.approx(exact.work[2] - exact.work[0], rel=1e-12)
 
 
-def settled(body, loads, f, edges, count, steps):
-    """m and n of a steady cycle by tests/reference: what has slipped in the third round, to and
-    fro, rises from an end with the power 3/2, which leads back to it from 1 and from 10 per cent of
-    the most."""
-    margin = 0.03 * sum(edges)
-    breaks = [-edges[0] - margin, -edges[0], 0.0, edges[1], edges[1] + margin]
-    surface = Surface(graded(breaks, count))
-    friction = Friction(surface, f, None, None, [])
-    loads = np.column_stack(np.broadcast_arrays(*loads))
-    contact = press(body, surface, loads[0, 0], loads[0, 1], None)
-    q, way, where = np.zeros_like(surface.x), np.zeros_like(surface.x), None
-    q, _, where = friction._step(q, contact, loads[0, 2], loads[0, 3], where)
-    for _ in range(3):
-        way[:] = 0.0
-        for first, second in pairwise(loads):
-            for part in np.linspace(0, 1, steps + 1)[1:]:
-                Q = first[2] + part * (second - first)[2]
-                q, s, where = friction._step(q, contact, Q, (second - first)[3] / steps, where)
-                way += abs(s)
-    found = []
-    for side in (-1, 1):
-        x, slipped = side * surface.x[::side], way[::side]
-        x, slipped = x[x > 0], slipped[x > 0]
-        peak = np.argmax(slipped)
-        inner, outer = (
-            np.interp(level, slipped[: peak + 1], x[: peak + 1])
-            for level in (0.01 * slipped[peak], 0.1 * slipped[peak])
-        )
-        found.append(inner - (outer - inner) / (10 ** (2 / 3) - 1))
-    return found
-
-
 def test_a_closed_loop_ends_with_the_zone_of_its_own_motion():
     Q = np.array([0.0, 0.8, 0.2, 0.8]) * F * LOAD
     found = history(hertz, LOAD, 0.0, Q, 0.0)
     assert found.m[1:] == pytest.approx(np.sqrt([0.2, 0.7, 0.7]), rel=1e-12)
-
-
-def test_a_cycle_out_of_phase_is_as_accurate_as_asked():
-    """On some meshes a little slip within the zone is spurious."""
-    t = np.linspace(0, 2 * np.pi, 9)[:-1]
-    loads = LOAD * (1 + 0.2 * np.sin(t)), 0.01, 0.2 * F * LOAD * np.cos(t), 0.05 * np.sin(t)
-    fine = steady_cycle(hertz, *loads, tol=3e-5)
-    for tol in (1e-3, 1e-4):
-        found = steady_cycle(hertz, *loads, tol=tol)
-        off = max(abs(found.m - fine.m), abs(found.n - fine.n)) / (fine.m + fine.n)
-        assert off < found.error < 5 * tol
-
-
-def test_normal_load_out_of_phase_with_shear():
-    """P leads Q by a quarter: 0.8014 of the half-width at the mean load by another solver, for
-    which what slips by less than 1e-3 of the most does not slip."""
-    P, Q = LOAD * (1 + 0.2 * np.sin(T)), 0.3 * F * LOAD * np.cos(T)
-    exact, found, _ = both(hertz, P, 0.0, Q, 0.0, x=[0.8014, *np.linspace(0, 1, 41)])
-    assert exact.m == pytest.approx(math.sqrt(1 - math.sqrt(0.3**2 + 0.2**2)), abs=2e-3)
-    assert found.m == pytest.approx(found.n, rel=1e-9)
-    assert found.error < 1.5e-3 and 0 < 0.8014 - found.m < 2.5e-3
-    assert 0 < found.slip_range[0] < 4e-3 * np.nanmax(found.slip_range)
-
-
-@pytest.mark.parametrize("case", [hertz, wedge])
-def test_loops_of_a_shear_load_of_one_sign(case):
-    """Much of the contact is close to friction: elements slip a little where the bodies stick.
-
-    `both` demands that the stated error covers the true one.
-    """
-    rng = np.random.default_rng(4)
-    t = np.linspace(0, 2 * np.pi, 17)[:-1]
-    spans = (0.1, 0.4), (0.05, 0.25), (0.0, 2 * np.pi)
-    swing, shear, phase = (rng.uniform(low, high, (3, 1)) for low, high in spans)
-    P = LOAD * (1 + swing * np.sin(t))
-    *_, off = both(case, P, 0.0, F * LOAD * (0.4 + shear * np.sin(t + phase)), 0.0)
-    assert np.median(off) < 1e-2
 
 
 def test_a_cycle_that_settles_slowly():
@@ -580,8 +449,7 @@ def test_a_cycle_that_settles_slowly():
     assert [found.m, found.n] == pytest.approx([exact.m, exact.n], abs=2e-3)
 
 
-@pytest.mark.slow
-def test_tension_ahead_of_shear_as_by_the_independent_solver():
+def test_tension_ahead_of_shear_as_by_another_solver():
     """1.5 MN/m on a cylinder of 50 mm, E* = 60 GPa; tension of 400 MPa is ahead of shear by an
     eighth of a period.  That it is in phase would make m and n 0.820 and 1.237 mm; another solver
     has 0.772 and 1.035, where it is left open how little slip is none."""
@@ -589,11 +457,6 @@ def test_tension_ahead_of_shear_as_by_the_independent_solver():
     P, R, E_star = 1.5e6, 0.05, 60e9
     Q, sigma = 0.3 * F * P * np.cos(t), 400e6 * np.cos(t + np.pi / 4)
     found = steady_cycle(hertz, P, 0.0, Q, sigma, E_star=E_star, R=R)
-    a = math.sqrt(4 * P * R / (math.pi * E_star))
-    # the same in units in which E* and R are 1
-    loads = P / (E_star * R), 0.0, Q / (E_star * R), sigma / E_star
-    m, n = settled(Profile(lambda x: x**2 / 2), loads, F, (a / R, a / R), 96, 3)
     assert found.regime == COMPUTED and found.error < 2e-3
-    assert abs(found.m - m * R) < 3e-3 * 2 * a and abs(found.n - n * R) < 3e-3 * 2 * a
     assert found.m == pytest.approx(0.772e-3, abs=4e-6)
     assert found.n == pytest.approx(1.035e-3, abs=4e-6)

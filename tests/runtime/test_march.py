@@ -120,18 +120,6 @@ def test_nothing_is_told_of_a_cycle_in_which_slip_turns_round(tension):
     assert np.all(found[6] == Regime.MIXED)
 
 
-def test_a_mean_shear_that_no_zone_carries_is_left_to_steady_cycle_where_slip_turns_round():
-    """Wedge, P = E* = phi = 1, M from -0.2 to 0.2, ten times the closing tension: on elements a
-    mean shear of 0.8 f P leaves nothing stuck.  march tells MIXED, as without a mean shear."""
-    way = np.sin(T) / 2
-    M, sigma = 0.4 * way, 10 * 0.206021 * way
-    for mean, regime in ((0.0, Regime.COMPUTED), (0.4, Regime.NO_STICK)):
-        given = 1.0, M, 0.15 * way + mean, sigma
-        assert refused(march(wedge, *given), Regime.MIXED)
-        steady = wedge[0].steady_cycle(*given, f=F, tol=1e-2, **wedge[1])
-        assert steady.regime == regime
-
-
 # ---------------------------------------------------------------- what is refused
 
 
