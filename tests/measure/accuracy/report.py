@@ -3,7 +3,7 @@
 Each function is measured in its own process, and as many processes run at once as there are cores.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import click
@@ -12,6 +12,7 @@ from derive.body.library import library
 from derive.command.processes import Report, cores, in_processes
 from tests.measure.accuracy.measure import BOUNDS, CATALOGUE, EXACT, EXPLICIT, Worst, worst_of
 from tests.measure.accuracy.regions import REGIONS
+from tests.measure.page import table, write
 
 PAGE = Path(__file__).parents[3] / "docs" / "accuracy.md"
 
@@ -72,27 +73,26 @@ def measured(task: Task, report: Report) -> list[Worst]:
     return [*worst_of(body, function, count)]
 
 
-def page(rows: Sequence[Worst], count: int) -> str:
-    """Return the page in Markdown: a table per body, and the errors that exceed their bounds."""
-    bodies, lines = sorted({row.body for row in rows}), [WORDS % count]
+def page(rows: Sequence[Worst], count: int) -> Iterator[str]:
+    """The parts of the page: a table per body, and the errors that exceed their bounds."""
     by_key = {(row.body, row.function, row.region): row for row in rows}
     beyond = [row for row in rows if not row.met]
-    lines += [f"Of {len(rows)} figures, {len(rows) - len(beyond)} meet their bounds.", ""]
-    for body in bodies:
-        lines += [f"## {body}", "", "| function | " + " | ".join(REGIONS) + " |"]
-        lines += ["| --- |" + " ---: |" * len(REGIONS)]
-        for entry in CATALOGUE:
-            cells = [by_key.get((body, entry.name, region)) for region in REGIONS]
-            if any(cells):
-                lines.append(f"| {entry.name} | " + " | ".join(map(_cell, cells)) + " |")
-        lines.append("")
+    yield WORDS % count
+    yield f"Of {len(rows)} figures, {len(rows) - len(beyond)} meet their bounds."
+    for body in sorted({row.body for row in rows}):
+        found = {e.name: [by_key.get((body, e.name, at)) for at in REGIONS] for e in CATALOGUE}
+        lines = [[name, *map(_cell, cells)] for name, cells in found.items() if any(cells)]
+        yield f"## {body}"
+        yield table(["function", *REGIONS], lines)
     if beyond:
-        lines += ["## Errors beyond their bounds", "", BEYOND, ""]
-    for row in beyond:
-        inputs = ", ".join(f"{name} = {value!r}" for name, value in row.point.items())
-        entry_of = f"{row.body}, {row.function}, {row.region}: {row.error:.1e}"
-        lines += [f"- {entry_of}, condition {row.condition:.1e}, at {inputs}"]
-    return "\n".join(lines).rstrip() + "\n"
+        yield f"## Errors beyond their bounds\n\n{BEYOND}"
+        yield "\n".join(map(_entry, beyond))
+
+
+def _entry(row: Worst) -> str:
+    inputs = ", ".join(f"{name} = {value!r}" for name, value in row.point.items())
+    entry_of = f"{row.body}, {row.function}, {row.region}: {row.error:.1e}"
+    return f"- {entry_of}, condition {row.condition:.1e}, at {inputs}"
 
 
 def _cell(row: Worst | None) -> str:
@@ -121,9 +121,7 @@ def main(count: int, quick: bool, bodies: tuple[str, ...], output: Path) -> None
     rows: list[Worst] = []
     for worst in in_processes(measured, tasks, lambda *_: None, cores()):
         rows += worst
-    text = page(rows, count)
-    output.write_text(text, encoding="utf-8")
-    print(f"{sum(row.met for row in rows)} of {len(rows)} figures meet their bounds: {output}")
+    write(output, *page(rows, count))
 
 
 if __name__ == "__main__":

@@ -1,8 +1,4 @@
-"""Time and peak memory of examples/monte_carlo.py for increasing numbers of samples.
-
-    python -m tests.measure.benchmarks.monte_carlo
-
-prints the table and writes it to notebooks/monte_carlo.md.
+"""`make bench-monte-carlo`: time and peak memory of examples/monte_carlo.py.
 
 Each run is a separate process with two workers.  The memory is that of the process and all its
 children, measured every INTERVAL seconds.  Pages that processes share are counted once (PSS).
@@ -17,6 +13,8 @@ from time import perf_counter, sleep
 from typing import NamedTuple
 
 import psutil
+
+from tests.measure.page import table, write
 
 ROOT = Path(__file__).parents[3]
 EXAMPLE = ROOT / "examples" / "monte_carlo.py"
@@ -70,37 +68,27 @@ def _usage(root: psutil.Process) -> Iterator[tuple[float, float]]:
                 yield process.memory_full_info().pss, times.user + times.system
 
 
-def table(runs: list[Run]) -> str:
-    """The table in Markdown, followed by the distribution from the last run."""
-    lines = [
-        "# Monte Carlo simulation of the slip zone",
-        "",
-        "Written by `make bench-monte-carlo`, which runs `examples/monte_carlo.py` in one process",
-        "with two workers.  Samples of load, moment and coefficient of friction are passed to",
-        "`wedge.contact` and `wedge.stick_zone` as Dask arrays, chunk by chunk.  Peak memory and",
-        "processor time are those of all processes together.  About two seconds of the processor",
-        "time are needed to start them.",
-        "",
-        "| samples | wall time [s] | processor time [s] | ns per sample | peak memory [MB] |",
-        "| ---: | ---: | ---: | ---: | ---: |",
-    ]
-    for run in runs:
-        each = 1e9 * run.busy / run.samples
-        lines.append(
-            f"| {run.samples:,} | {run.seconds:.1f} | {run.busy:.1f} | {each:.0f} "
-            f"| {run.peak / 1e6:.0f} |"
-        )
-    lines += ["", "Result of the last run:", "", "```text"]
-    lines += (line.rstrip() for line in runs[-1].report.splitlines())
-    return "\n".join([*lines, "```", ""])
+TEXT = """
+# Monte Carlo simulation of the slip zone
+
+Written by `make bench-monte-carlo`, which runs `examples/monte_carlo.py` in one process
+with two workers.  Samples of load, moment and coefficient of friction are passed to
+`wedge.contact` and `wedge.stick_zone` as Dask arrays, chunk by chunk.  Peak memory and
+processor time are those of all processes together.  About two seconds of the processor
+time are needed to start them.
+"""
+HEAD = ["samples", "wall time [s]", "processor time [s]", "ns per sample", "peak memory [MB]"]
 
 
-def main() -> None:
-    """Measure all runs, print the table and write it to the file."""
-    text = table([measured(samples) for samples in COUNTS])
-    TABLE.write_text(text, encoding="utf-8")
-    print(text)
+def row(run: Run) -> list[str]:
+    """The cells of one run."""
+    each = f"{1e9 * run.busy / run.samples:.0f}"
+    times = f"{run.seconds:.1f}", f"{run.busy:.1f}"
+    return [f"{run.samples:,}", *times, each, f"{run.peak / 1e6:.0f}"]
 
 
 if __name__ == "__main__":
-    main()
+    runs = [measured(samples) for samples in COUNTS]
+    report = "\n".join(line.rstrip() for line in runs[-1].report.splitlines())
+    rows = table(HEAD, map(row, runs), words=0)
+    write(TABLE, TEXT, rows, "Result of the last run:", f"```text\n{report}\n```")

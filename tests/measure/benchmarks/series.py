@@ -1,13 +1,7 @@
-"""Errors of the series of the slip zones, order by order, relative to the exact stick zone.
+"""`make series`: errors of the series of the slip zones, relative to the exact stick zone.
 
-    python -m tests.measure.benchmarks.series
-
-prints the table and writes it to notebooks/series.md.
-
-The tension is large, twice the tension at which a slip zone closes; dQ falls from 0.3 f P to
-0.3 f P/64.  Each row gives the slip zone relative to the contact width, and the relative errors of
-orders 1 and 2.  The last row of each edge gives the powers of the slip zone with which the
-errors fall; they should equal the orders.
+Each row gives the slip zone relative to the contact width, and the relative errors of orders 1 and
+2.  The powers of the slip zone with which the errors fall should equal the orders.
 """
 
 import importlib
@@ -19,6 +13,7 @@ import numpy as np
 
 from generated.runtime.types import Contact
 from notebooks.common import closing_tension
+from tests.measure.page import table, write
 
 TABLE = Path(__file__).parents[3] / "notebooks" / "series.md"
 F, E_STAR = 0.5, 1.0
@@ -67,37 +62,25 @@ def measured(name: str, parts: Any = PARTS) -> Iterator[Errors]:
         yield Errors(name, edge, size / (a + c), errors)
 
 
-def table() -> str:
-    """The table in Markdown."""
-    lines = [
-        "# Errors of the series of the slip zones",
-        "",
-        "Written by `make series`.  The normal loads are constant, and the tension is large,",
-        "twice the tension at which a slip zone closes; dQ is 0.3 f P, and a quarter of the",
-        "value before in each further row.  The table gives the relative errors of the slip",
-        "zones of each order, compared with the exact conditions.  The last row of each edge",
-        "gives the power of the slip zone with which the error falls.",
-        "",
-        "| body | edge | slip zone / width | order 1 | order 2 |",
-        "| --- | --- | ---: | ---: | ---: |",
-    ]
-    for name in BODIES:
-        for of in measured(name):
-            for size, *errors in zip(of.size, *of.errors, strict=True):
-                shown = " | ".join(f"{e:.1e}" for e in errors)
-                lines.append(f"| {name} | {of.edge} | {size:.4f} | {shown} |")
-            slopes = " | ".join(f"{v:.2f}" for v in of.slopes)
-            lines.append(f"| {name} | {of.edge} | power | {slopes} |")
-    return "\n".join(lines) + "\n"
+TEXT = """
+# Errors of the series of the slip zones
+
+Written by `make series`.  The normal loads are constant, and the tension is large,
+twice the tension at which a slip zone closes; dQ is 0.3 f P, and a quarter of the
+value before in each further row.  The table gives the relative errors of the slip
+zones of each order, compared with the exact conditions.  The last row of each edge
+gives the power of the slip zone with which the error falls.
+"""
 
 
-def main() -> None:
-    """Print the table and write it to the file."""
-    text = table()
-    TABLE.parent.mkdir(exist_ok=True)
-    TABLE.write_text(text, encoding="utf-8")
-    print(text)
+def rows() -> Iterator[list[str]]:
+    """The cells of the table."""
+    for of in (errors for name in BODIES for errors in measured(name)):
+        for size, *errors in zip(of.size, *of.errors, strict=True):
+            yield [of.name, of.edge, f"{size:.4f}", *(f"{error:.1e}" for error in errors)]
+        yield [of.name, of.edge, "power", *(f"{power:.2f}" for power in of.slopes)]
 
 
 if __name__ == "__main__":
-    main()
+    head = ["body", "edge", "slip zone / width", *(f"order {order}" for order in ORDERS)]
+    write(TABLE, TEXT, table(head, rows(), words=2))

@@ -21,6 +21,7 @@ import click
 import numpy as np
 
 from generated.runtime.types import Contact, Regime
+from tests.measure.page import table, write
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "performance.md"
@@ -38,10 +39,15 @@ BODIES: dict[str, dict[str, float]] = {
 """Parameters of each body, in SI units; the contacts are about two millimetres wide."""
 
 
-WORDS = """\
+WORDS = f"""
+# Speed
+
 This page is written by `make bench`, and all figures come from one run.  They are medians.  One
 thread was used, except where two threads are named.  Times of one call are for scalar arguments and
 exclude compilation.  The integrated body is `hyperbola`, for which the code uses quadrature.
+
+Python {platform.python_version()}, NumPy {np.__version__}, {os.cpu_count()} cores, \
+{platform.machine()}.
 """
 
 
@@ -273,30 +279,10 @@ def shown(value: float, digits: int) -> str:
     return f"{value:,.0f}" if value >= 10 ** (digits - 1) else f"{value:.{digits}g}"
 
 
-def page(figures: list[Figure], sizes: list[int], rows: list[tuple[str, list[float]]]) -> str:
-    """Return the page in Markdown."""
-    lines = [
-        "# Speed",
-        "",
-        WORDS,
-        f"Python {platform.python_version()}, NumPy {np.__version__}, {os.cpu_count()} cores, "
-        f"{platform.machine()}.",
-        "",
-        "| figure | measured | bound | met |",
-        "| --- | ---: | ---: | --- |",
-    ]
-    for f in figures:
-        limit = f"{'at least' if f.least else 'at most'} {shown(f.bound, 4)} {f.unit}"
-        lines.append(
-            f"| {f.what} | {shown(f.value, 4)} {f.unit} | {limit} | {'yes' if f.met else 'no'} |"
-        )
-    lines += ["", "## Arrays", "", "Times are in ns per element; a blank would take too long.", ""]
-    lines += ["| function | " + " | ".join(f"{n:,}" for n in sizes) + " |"]
-    lines += ["| --- |" + " ---: |" * len(sizes)]
-    for name, row in rows:
-        cells = [shown(v, 3) for v in row] + [""] * (len(sizes) - len(row))
-        lines.append(f"| {name} | " + " | ".join(cells) + " |")
-    return "\n".join([*lines, ""])
+def figure_row(f: Figure) -> list[str]:
+    """The cells of a figure."""
+    limit = f"{'at least' if f.least else 'at most'} {shown(f.bound, 4)} {f.unit}"
+    return [f.what, f"{shown(f.value, 4)} {f.unit}", limit, "yes" if f.met else "no"]
 
 
 @click.command()
@@ -309,9 +295,17 @@ def main(quick: bool, output: Path) -> None:
     rows = [*explicit(sizes, seconds)]
     figures = [*once(seconds), *batches([1000] if quick else [1, 1000, 100_000], seconds)]
     figures += [threads(1000 if quick else 20_000), *first_calls(1 if quick else 5)]
-    text = page(figures, sizes, rows)
-    output.write_text(text, encoding="utf-8")
-    print(text)
+    arrays = [
+        [name, *(shown(v, 3) for v in row), *[""] * (len(sizes) - len(row))] for name, row in rows
+    ]
+    write(
+        output,
+        WORDS,
+        table(["figure", "measured", "bound", "met"], map(figure_row, figures)),
+        "## Arrays",
+        "Times are in ns per element; a blank would take too long.",
+        table(["function", *(f"{n:,}" for n in sizes)], arrays),
+    )
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 """Cycles of the wedge around its threshold: the slip zone by the solver and by other methods."""
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 from tests.measure.comparison.cases import Compared, F
@@ -38,29 +37,33 @@ def row(point: Point) -> Around:
     return Around(point, compared(case, FINE), least)
 
 
-def markdown(rows: Iterable[Around]) -> str:
-    """The table in Markdown; results other than the solver's are errors in per cent of it."""
-    lines = [
-        "## Around the threshold",
-        "",
-        "The upright wedge at P = E* = phi = 1, f = 1/2, dQ = 0.15.  Tensions are relative to",
-        "the threshold at which the right slip zone closes.  `solver` is the length of this slip",
-        "zone, and `+-` the estimate of its error.  The last four columns are the differences of",
-        "other results from it: the exact zone of `stick_zone(..., mixed=True)`, which is",
-        "available at constant normal loads; the smallest stick zone of all partial half-cycles",
-        "in either regime; and the series.  A range of P or M is its change while the shear load",
-        "rises; a negative one means that it falls.  `none` means that there is no solution.",
-        "",
-        "| range of P | range of M | tension | solver | +- | exact | smallest of parts | order 1 "
-        "| order 2 |",
-        "|" + " ---: |" * 9,
+TEXT = """
+## Around the threshold
+
+The upright wedge at P = E* = phi = 1, f = 1/2, dQ = 0.15.  Tensions are relative to
+the threshold at which the right slip zone closes.  `solver` is the length of this slip
+zone, and `+-` the estimate of its error.  The last four columns are the differences of
+other results from it: the exact zone of `stick_zone(..., mixed=True)`, which is
+available at constant normal loads; the smallest stick zone of all partial half-cycles
+in either regime; and the series.  A range of P or M is its change while the shear load
+rises; a negative one means that it falls.  `none` means that there is no solution.
+"""
+
+
+def shown(found: Around) -> list[str]:
+    """The cells; results other than the solver's are errors in per cent of it."""
+    at, row, least = found
+    solver, error, exact, _, *series = (pair[1] for pair in row[1:])
+    off = (percent(d / solver - 1) for d in (exact, least, *series))
+    return [
+        f"{at.load:g}",
+        f"{at.span:g}",
+        f"{at.tension:g}",
+        f"{solver:.5f}",
+        f"{error:.1e}",
+        *off,
     ]
-    for at, found, least in rows:
-        solver = found.solver[1]
-        candidates = (found.exact[1], least, found.first[1], found.second[1])
-        off = " | ".join(percent(d / solver - 1) for d in candidates)
-        lines.append(
-            f"| {at.load:g} | {at.span:g} | {at.tension:g} | {solver:.5f} | {found.error[1]:.1e} | "
-            f"{off} |"
-        )
-    return "\n".join(lines) + "\n"
+
+
+HEAD = ["range of P", "range of M", "tension", "solver", "+-"]
+HEAD += ["exact", "smallest of parts", "order 1", "order 2"]

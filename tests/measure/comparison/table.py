@@ -1,6 +1,6 @@
 """Slip zones by the solver, the exact conditions and the series, cycle by cycle."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -73,34 +73,29 @@ def _printed(case: Compared, at: Contact, shear: float, tension: float) -> np.nd
     return np.abs(K_T) / (F * K_N)
 
 
-def markdown(rows: Iterable[Row]) -> str:
-    """The table in Markdown; the last three columns are errors relative to the exact slip zone."""
-    lines = [
-        "# Slip zones by the independent solver, by the exact conditions, and by series",
-        "",
-        "Written by `make comparison`.  The solver (tests/reference) shares no code with the",
-        "package; `+-` is the solver's estimate of its own error.  `solver` and `exact` are the",
-        "lengths of the slip zones of the contact at the end of the half-cycle, and `solver off`",
-        "is their difference.  The last three columns are the relative errors of the series.",
-        "`printed` is the first order with the K_T of a symmetric contact, as in the paper.  The",
-        "series do not allow for slip that reverses within the half-cycle.  They treat such a",
-        "cycle as one of moderate or large tension, depending on the sign of K_T, and may have",
-        "no solution (`none`).  Numbers in the names of these cycles are tensions relative to",
-        "8 dQ/(pi h).",
-        "",
-        "| cycle | edge | solver | +- | exact | solver off | printed | order 1 | order 2 |",
-        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
-    ]
-    for of in rows:
-        for i, edge in enumerate(("left", "right")):
-            exact = of.exact[i]
-            series = (of.printed[i], of.first[i], of.second[i])
-            off = " | ".join(percent(d / exact - 1) for d in series)
-            lines.append(
-                f"| {of.case.name} | {edge} | {of.solver[i]:.5f} | {of.error[i]:.1e} | "
-                f"{exact:.5f} | {abs(of.solver[i] - exact):.1e} | {off} |"
-            )
-    return "\n".join(lines) + "\n"
+TEXT = """
+# Slip zones by the independent solver, by the exact conditions, and by series
+
+Written by `make comparison`.  The solver (tests/reference) shares no code with the
+package; `+-` is the solver's estimate of its own error.  `solver` and `exact` are the
+lengths of the slip zones of the contact at the end of the half-cycle, and `solver off`
+is their difference.  The last three columns are the relative errors of the series.
+`printed` is the first order with the K_T of a symmetric contact, as in the paper.  The
+series do not allow for slip that reverses within the half-cycle.  They treat such a
+cycle as one of moderate or large tension, depending on the sign of K_T, and may have
+no solution (`none`).  Numbers in the names of these cycles are tensions relative to
+8 dQ/(pi h).
+"""
+HEAD = ["cycle", "edge", "solver", "+-", "exact", "solver off", "printed", "order 1", "order 2"]
+
+
+def shown(row: Row) -> Iterator[list[str]]:
+    """The cells of both edges; the last three are errors relative to the exact slip zone."""
+    for edge, pair in zip(("left", "right"), zip(*row[1:], strict=True), strict=True):
+        solver, error, exact, *series = pair
+        off = (percent(d / exact - 1) for d in series)
+        figures = f"{solver:.5f}", f"{error:.1e}", f"{exact:.5f}", f"{abs(solver - exact):.1e}"
+        yield [row.case.name, edge, *figures, *off]
 
 
 def percent(part: float) -> str:

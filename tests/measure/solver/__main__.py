@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from tests.measure.page import write
 from tests.measure.solver.report import findings
 
 FINDINGS = Path(__file__).parents[2] / "reference" / "FINDINGS.md"
@@ -16,8 +17,7 @@ FINDINGS = Path(__file__).parents[2] / "reference" / "FINDINGS.md"
 def main(out: Path, jobs: int | None) -> None:
     """Compare the solver with known stick zones, and explore cycles whose stick zone is unknown."""
     with ProcessPoolExecutor(jobs) as pool:
-        text = findings(lambda *work: [*pool.map(*work)])
-    out.write_text(text, encoding="utf-8")
+        write(out, *findings(lambda *work: [*pool.map(*work)]))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from tests.measure.page import table
 from tests.measure.solver.explore import (
     AROUND,
     COUNTS,
@@ -34,10 +35,9 @@ Work = Callable[[Callable[[Any], Any], Sequence[Any]], list[Any]]
 """A function that works like `map`."""
 
 
-def findings(work: Work) -> str:
-    """The text of the whole file."""
-    parts = [HEAD.strip(), *_closed(work), *_window(work), *_maps(work)]
-    return "\n\n".join(parts) + "\n"
+def findings(work: Work) -> list[str]:
+    """The parts of the page."""
+    return [HEAD, *_closed(work), *_window(work), *_maps(work)]
 
 
 HEAD = f"""# Results of the independent solver
@@ -93,21 +93,6 @@ started at its other end, so that the zones must agree.
 """
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A Markdown table with numbers aligned right; ValueError if a row has a wrong number of cells.
-
-    >>> print(table(["case", "n"], [["a", "1"]]))
-    | case | n |
-    | --- | ---: |
-    | a | 1 |
-    """
-    rule = ["---", *["---:"] * (len(head) - 1)]
-    lines = [head, rule, *rows]
-    if {len(line) for line in lines} != {len(head)}:
-        raise ValueError(f"every row must have {len(head)} cells: {', '.join(head)}")
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
-
-
 def _small(value: float) -> str:
     return "–" if np.isnan(value) else f"{value:.1e}"
 
@@ -121,7 +106,7 @@ def _zone(zone: Zone) -> str:
 
 def _closed(work: Work) -> list[str]:
     head = ["cycle", "m, n exact", *_meshes(), "±", "order", "rounds"]
-    return [CLOSED_TEXT.strip(), table(head, work(_closed_row, CLOSED))]
+    return [CLOSED_TEXT, table(head, work(_closed_row, CLOSED))]
 
 
 def _meshes() -> Row:
@@ -143,7 +128,7 @@ def _closed_row(known: Known) -> Row:
 def _window(work: Work) -> list[str]:
     candidates = ["exact", "moderate", "large", "smallest of parts"]
     head = ["dsigma / threshold", "regime", "H", "m, n solver", "±", *candidates]
-    text = WINDOW_TEXT.strip().format(threshold(), *window())
+    text = WINDOW_TEXT.format(threshold(), *window())
     return [text, table(head, work(_window_row, WINDOW))]
 
 
@@ -178,23 +163,18 @@ FIGURES = [
 
 
 def _maps(work: Work) -> list[str]:
-    moment, around = work(_explored, VARYING_MOMENT), work(_explored, AROUND)
-    rows = [
-        [f"{at.mean:g}, {at.span:g}", f"{at.tension:g}", *_figures(found)]
-        for at, found in zip(VARYING_MOMENT, moment, strict=True)
-    ]
-    near = [
-        [f"{at.load:g}, {at.span:g}", f"{at.tension:g}", *_figures(found)]
-        for at, found in zip(AROUND, around, strict=True)
-    ]
-    return [
-        MAP_TEXT.strip(),
-        _summary(moment),
-        table(["M mean, range", "dsigma / threshold", *FIGURES], rows),
-        AROUND_TEXT.strip(),
-        _summary(around),
-        table(["P range, M range", "dsigma / threshold", *FIGURES], near),
-    ]
+    parts = []
+    for text, head, points in (
+        (MAP_TEXT, "M mean, range", VARYING_MOMENT),
+        (AROUND_TEXT, "P range, M range", AROUND),
+    ):
+        found = work(_explored, points)
+        rows = [
+            [f"{at.mean or at.load:g}, {at.span:g}", f"{at.tension:g}", *_figures(of)]
+            for at, of in zip(points, found, strict=True)
+        ]
+        parts += [text, _summary(found), table([head, "dsigma / threshold", *FIGURES], rows)]
+    return parts
 
 
 def _explored(point: Point) -> Explored:
