@@ -9,9 +9,6 @@ from numpy.testing import assert_allclose
 
 from generated import flat_rounded, full_stick, hertz
 from generated.edge import K_N_from_loads, PressureFit, fit_pressure, fit_stuck_shear
-from tests.edge.example import bonded
-from tests.reference.kernel import Surface
-from tests.reference.normal import Body, press
 
 # own constants, a, c; kinks far and near, tilted contacts, no kink
 BODIES = {
@@ -72,36 +69,6 @@ def test_the_error_stated_covers_the_truth(name: str, elements: int, limit: floa
     median = np.median(np.abs(found), axis=0)
     assert median[0] < 0.3 * 2 / elements and median[1] < limit / 100 * K_N
     assert np.median(stated[:, 1]) < 3.5 * limit / 100 * K_N
-
-
-@pytest.mark.parametrize(("nodes", "count", "limit"), [(50, 12, 2.0), (200, 6, 0.3)])
-@pytest.mark.parametrize("side", [1, -1])
-def test_the_error_of_a_bonded_mesh_is_stated(
-    nodes: int, count: int, limit: float, side: int
-) -> None:
-    """Pressure and bonded shear by boundary elements, without noise; limit in percent of K_T."""
-    a, c, rng = 1.0, 0.9, np.random.default_rng(7)
-    law, at = {"E_star": 1.0, "R": 1.0, "b": 0.6}, 0 if side == 1 else 1
-    P, M = (float(of(a, c, **law)) for of in (flat_rounded.load, flat_rounded.moment))
-    true = flat_rounded.K_N(a, c, **law)[at], full_stick.K_T(a, c, 1.0, 0.0)[at]
-    found = []
-
-    def profile(x: Any) -> Any:
-        return np.maximum(np.abs(x) - 0.6, 0.0) ** 2 / 2
-
-    for _ in range(count):
-        x = -a + (a + c) / nodes * (np.arange(-4, nodes + 5) + rng.random())
-        surface = Surface(x)
-        p = press(Body(profile, 1.0, (-0.6, 0.6)), surface, P, M).p
-        edge = fit_pressure(x[::side], p[::side])
-        dq = bonded(surface, p > 0, 1.0)
-        fit = fit_stuck_shear(x[::side], dq[::side], edge.edge, edge.edge_error)
-        found.append(((edge.K_N, edge.K_N_error), (fit.K_T, fit.K_T_error)))
-    value, stated = np.moveaxis(found, -1, 0)
-    off = np.abs(value - true)
-    assert np.all(np.mean(off <= 2 * stated, axis=0) >= 0.9)
-    assert np.median(off[:, 1]) < limit / 100 * true[1]
-    assert np.median(stated[:, 1]) < 2 * limit / 100 * true[1]
 
 
 X = np.linspace(-1.03, 1.07, 64)

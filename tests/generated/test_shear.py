@@ -349,16 +349,3 @@ def test_tiny_slip_zones_of_large_tension_by_hand(share: float, x: float) -> Non
     found = hertz.shear_change(x, here, here, dQ, dsigma, **law)
     wanted = (dQ - np.pi * dsigma * x / 4) / (np.pi * np.sqrt((1 - x) * (1 + x)))
     assert_allclose(found, wanted, rtol=1e-15 / share + 1e3 * share)
-
-
-def test_a_fall_of_tension_alone_drives_on_what_slipped() -> None:
-    """A wedge under large tension: (2 Q, sigma) is large tension by itself, and slips nowhere else.
-
-    Its shear would reach 1.3 f p beside the left edge."""
-    here, own = Contact(1.0, 2.0, np.nan), {"E_star": 1.0, "phi": 0.125}
-    P = wedge.load(1.0, 2.0, **own)
-    Q, sigma = 0.15 * P, P / 3
-    x = np.linspace(-0.9, 1.9, 15)
-    fall = {"dQ": 2 * Q, "dsigma": sigma}
-    assert np.all(np.isfinite(wedge.shear(x, here, Q, sigma, f=0.5, **own)))
-    assert np.all(np.isnan(wedge.shear(x, here, Q, sigma, f=0.5, **own, **fall)))

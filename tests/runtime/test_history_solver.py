@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from generated.runtime.history import refine
-from generated.runtime.types import Regime
 from tests.measure.accuracy.histories import (
     CASES,
     CLOSED,
@@ -14,7 +13,6 @@ from tests.measure.accuracy.histories import (
     F,
     compared,
     covered,
-    on_elements,
     random_loads,
     settled,
     turning_points,
@@ -64,20 +62,6 @@ def test_and_closer_when_asked(found, at, tol):
     assert off < tol and ratio > 1
 
 
-def test_the_stated_error_knows_of_time_steps_that_are_too_long():
-    """One straight path to tension, shear and moment: the right stick-slip boundary comes back.
-
-    Meshes of 1,024 elements and 64 to 1,024 steps a leg agree on n = 0.97343.
-    """
-    case = CASES["hertz"]
-    for tol in (1e-3, 1e-4):
-        found = case.module.history(
-            case.load, 0.0191884192, [-0.27608239], [-0.68441338], tol=tol, **case.constants
-        )
-        off = abs(found.n[0] - 0.97343) / (found.a[0] + found.c[0])
-        assert off < found.error[0] < 100 * tol
-
-
 def test_the_work_of_a_cycle_counts_what_slips_outside_the_smallest_contact():
     """A loop of P and Q whose zone is exact: what slips does so in contacts of 0.869 to 1.116.
 
@@ -112,26 +96,6 @@ def test_friction_takes_what_the_loads_give(body):
     assert abs(steady.work - told.by_shear) < 0.02 * told.by_shear
 
 
-@pytest.mark.enough("flat_rounded")
-@pytest.mark.parametrize("name", ["wedge", "flat_rounded"])
-def test_first_loadings_under_large_tension_are_half_of_a_steady_half_cycle(name):
-    """At constant P and M, Q and sigma from zero leave the zone of a cycle of 2 Q and 2 sigma."""
-    case, rng = CASES[name], np.random.default_rng(7)
-    ratio = []
-    for _ in range(24):
-        M = 0.06 * case.load * case.width * rng.uniform(-1, 1)
-        Q = 0.5 * case.load * rng.uniform(0.05, 0.6)
-        sigma = 2 * Q / case.width * rng.uniform(1.5, 4) * rng.choice([-1, 1])
-        here = case.module.contact(case.load, M, E_star=1.0, **case.own)
-        exact = case.module.stick_zone(here, here, 2 * Q, 2 * sigma, **case.constants)
-        if exact.regime == Regime.LARGE:
-            found = on_elements(case, (case.load, M, [Q], sigma))
-            off = max(abs(found.m - exact.m), abs(found.n - exact.n))[0] / (here.a + here.c)
-            ratio.append(off / found.error[0])
-            assert off < 4e-3
-    assert len(ratio) > 8 and np.mean(np.array(ratio) < 1) >= 0.95
-
-
 @pytest.mark.parametrize(("dQ", "dsigma"), [(0.1, -0.9), (0.3, 0.1), (0.01, 1.5)])
 def test_the_slip_range_of_a_steady_cycle_is_that_of_the_exact_zones(dQ, dsigma):
     case, P, M = CASES["flat_rounded"], 1.0, -0.05
@@ -144,38 +108,3 @@ def test_the_slip_range_of_a_steady_cycle_is_that_of_the_exact_zones(dQ, dsigma)
     rows = np.array(np.broadcast_arrays(P, M, dQ * part, dsigma * part))[:, [0, 1, 2, 3, 0]]
     on_mesh = refine.steady_cycle(case.module._BODY, case.own, F, rows, x, 1e-2).slip_range
     assert np.max(abs(on_mesh - exact)) <= 0.02 * np.max(exact)
-
-
-def contraction(case, loads):
-    """The largest growth of the distance of two histories under the same loads, from one instant
-    to the next, over the first distance; they begin with another shear."""
-    P, M, Q, sigma = (np.array(v, dtype=float) for v in np.broadcast_arrays(*loads))
-    other = Q.copy()
-    other[0] = -Q[0] + 0.1 * F * P[0]
-    plain = case.module.history(P, M, Q, sigma, **case.constants)
-    nodes = np.linspace(-plain.a.max(), plain.c.max(), 301)
-    x = (nodes[1:] + nodes[:-1]) / 2
-    here, there = (case.module.history(P, M, v, sigma, x=x, **case.constants).q for v in (Q, other))
-    apart = abs(x[:, None] - x) + (x[1] - x[0]) * np.exp(-1.5) * np.eye(x.size)
-    influence = -np.log(apart / (2 * (nodes[-1] - nodes[0])))
-    distance = np.sqrt([d @ influence @ d for d in here - there])
-    return float(np.max(np.diff(distance[1:])) / distance[1])
-
-
-@pytest.mark.parametrize("body", ["hertz", "wedge"])
-def test_two_histories_under_the_same_loads_never_separate(body):
-    loads = random_loads(CASES[body], np.random.default_rng(3), 7, True, False)
-    assert contraction(CASES[body], loads) < 0.02
-
-
-def test_slip_that_recedes_towards_an_edge_is_solved_on_fine_meshes():
-    """The stick interval ends close to the edge, where elements are small for both reasons."""
-    case = CASES["wedge"]
-    found, plain = (
-        case.module.history([1.04], [0.067], [-0.226], [-0.404], tol=t, **case.constants)
-        for t in (1e-5, 1e-3)
-    )
-    h = found.a + found.c
-    assert 0.99 < found.n / found.c < 0.999
-    assert found.error < 2e-4 and plain.error < 2e-3
-    assert max(abs(found.m - plain.m), abs(found.n - plain.n)) / h < plain.error

@@ -320,13 +320,6 @@ class Works(NamedTuple):
     by_shear: float
 
 
-def _quarter(instants: int = 65) -> Any:
-    """P leads Q by a quarter."""
-    t = np.linspace(0, 2 * np.pi, instants)
-    load = CASES["hertz"].load
-    return load * (1 + 0.2 * np.sin(t)), 0.0 * t, 0.3 * F * load * np.cos(t), 0.0 * t
-
-
 def _turned(load: float, dP: float, M: float, Q: float, sigma: float, instants: int = 65) -> Any:
     """A cycle, every load ahead of the one before."""
     t = np.linspace(0, 2 * np.pi, instants)
@@ -335,7 +328,7 @@ def _turned(load: float, dP: float, M: float, Q: float, sigma: float, instants: 
 
 
 TURNED = {
-    "hertz": _quarter(),
+    "hertz": _turned(np.pi / 4, 0.2, 0.0, 0.3, 0.0),
     "wedge": _turned(1.0, 0.0, 0.0, 0.4, 0.2),
     "flat_rounded": _turned(1.0, 0.1, 0.03, 0.3, 0.2),
     "rounded_wedge": _turned(1.0, 0.15, 0.03, 0.3, 0.2),

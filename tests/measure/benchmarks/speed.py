@@ -4,6 +4,7 @@ python -m tests.measure.benchmarks.speed [--quick] [--output FILE]
 """
 
 import importlib
+import inspect
 import os
 import platform
 import shutil
@@ -94,6 +95,8 @@ class Cycle(NamedTuple):
     law: dict[str, float]
     here: Contact
     there: Contact
+    P: float
+    M: float
     dQ: Any
     threshold: float
 
@@ -109,32 +112,20 @@ def cycle(body: str) -> Cycle:
     """Return the cycle of a body whose shear load changes by 0.3 f P."""
     module, law = importlib.import_module(f"generated.{body}"), {"E_star": E_STAR, **BODIES[body]}
     a, c = EDGES
-    dQ = 0.3 * FRICTION * module.load(a, c, **law)
+    P, M = (of(a, c, **law) for of in (module.load, module.moment))
+    dQ = 0.3 * FRICTION * P
     here, there = Contact(a, c, 0.0), Contact(1.01 * a, 1.02 * c, 0.0)
-    return Cycle(module, law, here, there, dQ, 8 * dQ / (np.pi * (a + c)))
-
-
-def loads_of(body: str) -> tuple[Any, dict[str, float], float, float]:
-    """Return a module, its constants, and the normal load and moment of its contact."""
-    given = cycle(body)
-    loads = (of(*EDGES, **given.law) for of in (given.module.load, given.module.moment))
-    return given.module, given.law, *loads
+    return Cycle(module, law, here, there, P, M, dQ, 8 * dQ / (np.pi * (a + c)))
 
 
 def inputs(body: str, function: str, size: int) -> dict[str, Any]:
     """Return random inputs for a function of a body."""
-    rng = np.random.default_rng(7)
+    rng, of = np.random.default_rng(7), cycle(body)
     a, c = rng.uniform(0.9, 1.1, (2, size)) * np.array(EDGES)[:, None]
-    module, law = importlib.import_module(f"generated.{body}"), {"E_star": E_STAR, **BODIES[body]}
-    own = {n: v for n, v in law.items() if n != "E_star" or function != "tilt"}
-    if function == "contact":
-        return {"P": module.load(a, c, **law), "M": module.moment(a, c, **law), **law}
-    if function == "contact_at_tilt":
-        alpha = module.tilt(a, c, **{n: v for n, v in law.items() if n != "E_star"})
-        return {"P": module.load(a, c, **law), "alpha": alpha, **law}
-    if function == "pressure":
-        return {"x": rng.uniform(-0.9 * EDGES[0], 0.9 * EDGES[1], size), "a": a, "c": c, **law}
-    return {"a": a, "c": c, **own}
+    held = {"a": a, "c": c, "alpha": of.module.tilt(a, c, **BODIES[body]), **of.law}
+    held |= {"P": of.module.load(a, c, **of.law), "M": of.module.moment(a, c, **of.law)}
+    held["x"] = rng.uniform(-0.9 * EDGES[0], 0.9 * EDGES[1], size)
+    return {name: held[name] for name in inspect.signature(getattr(of.module, function)).parameters}
 
 
 # ------------------------------------------------------------------ figures
@@ -164,34 +155,31 @@ def explicit(sizes: list[int], seconds: float) -> Iterator[tuple[str, list[float
 
 def once(seconds: float) -> Iterator[Figure]:
     """Measure single warm calls."""
-    wedge, smooth = cycle("wedge"), cycle("hyperbola")
-    contact, law, P, M = loads_of("hyperbola")
-    punch, punched, P_1, M_1 = loads_of("flat_rounded")
-    marched, wedged, P_2, M_2 = loads_of("wedge")
-    Q = 0.3 * FRICTION * P_2 * np.sin(np.linspace(0, 2 * np.pi, 101)[:-1])
-    law_2 = wedged | {"f": FRICTION}
-    P_3 = P_2 * (1 + 0.05 * np.cos(np.linspace(0, 2 * np.pi, 101)[:-1]))
+
+    def contact(of: Cycle) -> Any:
+        return of.module.contact(of.P, of.M, **of.law)
+
+    wedge, punch, smooth = map(cycle, ("wedge", "flat_rounded", "hyperbola"))
+    t, law = np.linspace(0, 2 * np.pi, 101)[:-1], wedge.law | {"f": FRICTION}
+    turned, Q = wedge.P * (1 + 0.05 * np.cos(t)), wedge.dQ * np.sin(t)
+    marched, followed = wedge.module.march, wedge.module.history
     cases: list[tuple[str, Call, float]] = [
         ("stick_zone, moderate", lambda: wedge.zone(0.5), 15),
         ("stick_zone, large", lambda: wedge.zone(3.0), 25),
         ("stick_zone, large, varying loads", lambda: wedge.zone(3.0, varying=True), 1.5e3),
         ("stick_zone, mixed", lambda: wedge.zone(1.1, mixed=True), 1e5),
-        ("contact, integrated body", lambda: contact.contact(P, M, **law), 200),
+        ("contact, integrated body", lambda: contact(smooth), 200),
         ("stick_zone, large, integrated body", lambda: smooth.zone(3.0), 5e3),
         (
             "stick_zone, large, varying loads, integrated body",
             lambda: smooth.zone(3.0, varying=True),
             1.5e5,
         ),
-        ("contact by Newton, piecewise polynomial", lambda: punch.contact(P_1, M_1, **punched), 20),
-        (
-            "march of 100 instants",
-            lambda: marched.march(P_2, M_2, Q, 0.0, **law_2),
-            1e4,
-        ),
+        ("contact by Newton, piecewise polynomial", lambda: contact(punch), 20),
+        ("march of 100 instants", lambda: marched(wedge.P, wedge.M, Q, 0.0, **law), 1e4),
         (
             "history of 100 instants, loads out of phase",
-            lambda: marched.history(P_3, M_2, Q, 0.0, **law_2),
+            lambda: followed(turned, wedge.M, Q, 0.0, **law),
             3e5,
         ),
     ]
