@@ -4,7 +4,6 @@ module       contents
 ----------   ------------------------------------------------------------------
 piece        one piece of a profile, and the jump of g' where two pieces meet
 steep        simplification of functions of very different steepness
-compiled     numerical functions of expressions
 lows         a search for places where a curvature may be negative
 trial        a test of many parameters, with numbers
 convexity    the conditions under which g'' >= 0

@@ -9,7 +9,6 @@ Each of these functions is read as cases, a value and a condition each, like tho
 
 from collections.abc import Iterator
 from itertools import pairwise
-from math import prod
 
 from sympy import (
     Abs,
@@ -20,6 +19,7 @@ from sympy import (
     Integer,
     Max,
     Min,
+    Mul,
     Not,
     Or,
     Piecewise,
@@ -28,12 +28,14 @@ from sympy import (
     S,
     diff,
     expand,
+    expand_power_base,
     factor,
     fraction,
     oo,
     roots,
     sign,
     simplify,
+    sqf,
     together,
 )
 from sympy.core.relational import Relational
@@ -66,29 +68,18 @@ def resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
 
 
 def _with_moduli(g: Expr) -> Expr:
-    """Write roots of squares, which hide kinks, as moduli: sqrt((x - b)**2) is Abs(x - b)."""
+    """Write roots of squares, which hide kinks, as moduli: sqrt(x**2 - 2*b*x + b**2) is Abs(x - b).
+
+    SymPy does so when the square stands alone.
+    """
     powers = [p for p in g.atoms(Pow) if not p.exp.is_Integer and p.base.is_rational_function(x)]
-    found = {p: _without_squares(p) for p in powers if p.base.has(x) and not p.exp.has(x)}
-    return g.xreplace({power: value for power, value in found.items() if value != power})
-
-
-def _without_squares(power: Pow) -> Expr:
-    """Write (f^(2 n) r)^k as |f|^(2 n k) r^k, where f and r are quotients of polynomials."""
-    sides = [Poly(side, x).sqf_list() for side in fraction(together(power.base))]
-    squares = [
-        (abs(part.as_expr()), sense * (times - times % 2))
-        for sense, (_, factors) in zip((1, -1), sides, strict=True)
-        for part, times in factors
-        if times > 1
-    ]
-    if not squares:
-        return power
-    rest = [
-        constant * prod(part.as_expr() ** (times % 2) for part, times in factors)
-        for constant, factors in sides
-    ]
-    moduli = prod(modulus ** (times * power.exp) for modulus, times in squares)
-    return (rest[0] / rest[1]) ** power.exp * moduli
+    found: dict[Expr, Expr] = {}
+    for power in powers:
+        if power.base.has(x) and not power.exp.has(x):
+            over, under = (sqf(side, x) for side in fraction(together(power.base)))
+            if any(part.is_Pow and part.has(x) for part in Mul.make_args(over * under)):
+                found[power] = expand_power_base((over / under) ** power.exp)
+    return g.xreplace(found)
 
 
 def _innermost(g: Expr) -> Expr | None:

@@ -6,11 +6,7 @@ SymPy is imported when a file is loaded, not when it is looked up.
 import importlib.util
 import signal
 import sys
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING
 
 from derive.command.errors import BadGeometryFile, UnknownGeometry, UserError
@@ -19,6 +15,9 @@ if TYPE_CHECKING:
     from derive.body.geometry import Geometry
 
 FOLDER = Path(__file__).parents[1] / "geometries"
+
+_TERMINATED = 128 + signal.SIGTERM
+"""The status with which a process ends that is asked to end while it loads a file."""
 
 
 def library() -> tuple[str, ...]:
@@ -88,12 +87,11 @@ def _execute(path: Path) -> "Geometry":
     module = importlib.util.module_from_spec(spec)
     keep, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
-        with _interrupts_noticed() as interrupted:
-            spec.loader.exec_module(module)
+        spec.loader.exec_module(module)
     except UserError:
         raise
-    except BaseException as error:
-        if interrupted():
+    except (Exception, SystemExit) as error:
+        if isinstance(error, SystemExit) and error.code == _TERMINATED:
             raise
         why = f"{type(error).__name__}: {error}".splitlines()[0].removesuffix(": ")
         raise BadGeometryFile(str(path), why) from error
@@ -103,29 +101,3 @@ def _execute(path: Path) -> "Geometry":
     if not isinstance(geometry, Geometry):
         raise BadGeometryFile(str(path), "it does not define `geometry`")
     return geometry.described((module.__doc__ or "").strip())
-
-
-@contextmanager
-def _interrupts_noticed() -> Iterator[Callable[[], bool]]:
-    """Tell whether Ctrl-C or SIGTERM arrived in the block; a file can raise the same exceptions."""
-    came: list[int] = []
-    before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
-    if threading.current_thread() is not threading.main_thread():
-        yield lambda: False
-        return
-
-    def passing_on(handler: Callable[[int, FrameType | None], object]) -> Callable[..., None]:
-        def handle(number: int, frame: FrameType | None) -> None:
-            came.append(number)
-            handler(number, frame)
-
-        return handle
-
-    handled = {number: handler for number, handler in before.items() if callable(handler)}
-    for number, handler in handled.items():
-        signal.signal(number, passing_on(handler))
-    try:
-        yield lambda: bool(came)
-    finally:
-        for number, handler in handled.items():
-            signal.signal(number, handler)

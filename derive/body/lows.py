@@ -24,11 +24,11 @@ from sympy import (
     Tuple,
     exp,
     fraction,
+    lambdify,
     powsimp,
     together,
 )
 
-from derive.body.compiled import compiled
 from derive.body.piece import Piece
 from derive.symbols import x
 
@@ -55,8 +55,8 @@ class Lows:
 
     def __init__(self, piece: Piece, symbols: Sequence[Symbol]) -> None:
         both = [_joined(expr) for expr in (piece.curvature, piece.profile)]
-        self._polynomials = compiled(symbols, [*_marking(both[0])], modules="numpy")
-        self._at = compiled([x, *symbols], both, shared=True, modules="numpy")
+        self._polynomials = lambdify(symbols, [*_marking(both[0])], modules="numpy", dummify=True)
+        self._at = lambdify([x, *symbols], both, cse=True, modules="numpy", dummify=True)
 
     def places(self, given: Sequence[float], lower: float, upper: float) -> list[float]:
         """Points between two ends where the curvature may be negative, the likeliest first."""

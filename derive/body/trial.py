@@ -14,10 +14,9 @@ from itertools import islice, pairwise, product
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Integer, Pow, Rational, Symbol
+from sympy import Expr, Integer, Pow, Rational, Symbol, lambdify
 from sympy.logic.boolalg import Boolean
 
-from derive.body.compiled import compiled
 from derive.body.lows import Lows
 from derive.body.piece import Piece, step
 from derive.command.errors import BadProfile
@@ -204,10 +203,12 @@ class _Curve:
 
     def __init__(self, piece: Piece, domain: tuple[Expr, Expr], symbols: list[Symbol]) -> None:
         self._curvature, self._profile = (
-            compiled([x, *symbols], expr, modules="mpmath")
+            lambdify([x, *symbols], expr, modules="mpmath", dummify=True)
             for expr in (piece.curvature, piece.profile)
         )
-        self._ends = compiled(symbols, [piece.lower, piece.upper, *domain], modules="mpmath")
+        self._ends = lambdify(
+            symbols, [piece.lower, piece.upper, *domain], modules="mpmath", dummify=True
+        )
         self._lows = Lows(piece, symbols)
 
     def demand(self, values: Values) -> None:

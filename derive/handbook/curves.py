@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 from mpmath import mpf
+from sympy import lambdify
 
-from derive.body.compiled import compiled
 from derive.codegen.example import example_of
 from derive.codegen.trial import imported
 from derive.proof.points import holds
@@ -93,7 +93,7 @@ def _profile(sheet: FormulaSheet, reach: float) -> Line:
     half, law = drawn_at(sheet)
     positions = np.linspace(-reach, reach, SAMPLES)
     names = [q.symbol for q in sheet.geometry.parameters]
-    g = compiled([x, *names], sheet.geometry.g, modules="numpy")
+    g = lambdify([x, *names], sheet.geometry.g, modules="numpy", dummify=True)
     with np.errstate(all="ignore"):
         values = g(half * positions, *(law[str(n)] for n in names)) / half
     values = np.broadcast_to(values, positions.shape)

@@ -28,6 +28,7 @@ from sympy import (
     Rational,
     S,
     Symbol,
+    lambdify,
     nan,
     oo,
     pi,
@@ -37,7 +38,6 @@ from sympy.core.function import AppliedUndef
 from sympy.core.numbers import Exp1
 from sympy.logic.boolalg import Boolean, BooleanAtom
 
-from derive.body.compiled import compiled
 from derive.proof.balls import (
     FUNCTIONS,
     Ball,
@@ -246,7 +246,7 @@ def _by_mpmath(node: Basic) -> Operation:
     if isinstance(node, AppliedUndef | Boolean):
         raise Undecided(f"{node} cannot be computed numerically")
     symbols = sorted(node.free_symbols, key=str)
-    function = compiled(symbols, node, modules="mpmath")
+    function = lambdify(symbols, node, modules="mpmath", dummify=True)
 
     def operation(*values: Ball) -> Ball:
         with mpmath.workprec(ctx.prec + 20):
