@@ -73,7 +73,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Array
         P = E_star*Integral(sqrt((a + xi)*(c - xi))*g''(xi), (xi, -a, c))/2
         g''(xi) = cosh(xi/b)/R
 
-    Checked numerically to 49 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
+    Checked numerically to 50 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
     Evaluated by quadrature.
 
     Parameters

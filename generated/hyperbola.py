@@ -73,7 +73,7 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
         P = E_star*Integral(sqrt((a + xi)*(c - xi))*g''(xi), (xi, -a, c))/2
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
-    Checked numerically to 48 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
+    Checked numerically to 50 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
     Evaluated by quadrature.
 
     Parameters

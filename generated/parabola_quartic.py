@@ -290,7 +290,7 @@ def L_N(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Edges:
         L_N_left = -E_star*(8*L**3 + 55*R*a**2 + 26*R*a*c - 5*R*c**2)/(32*L**3*R*sqrt(a + c))
         L_N_right = E_star*(-8*L**3 + 5*R*a**2 - 26*R*a*c - 55*R*c**2)/(32*L**3*R*sqrt(a + c))
 
-    L_N_left: proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth
+    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
     of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
     left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
     Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of

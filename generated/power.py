@@ -205,7 +205,7 @@ def L_N(a: Values, c: Values, *, E_star: Values, L: Values, k: Values) -> Edges:
         g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
             2)*(k - 1), True))
 
-    L_N_left: checked numerically to 48 digits at 24 points.  Route: quadrature of the defining
+    L_N_left: checked numerically to 49 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), at the left edge.  L_N_right: checked numerically to 49 digits at 24 points.
     Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
 

@@ -333,7 +333,7 @@ def L_N(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> Ed
         second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
             2*sin(t/2)/far, far > 0), (0, True))
 
-    L_N_left: proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth
+    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
     of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
     left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
     Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of

@@ -11,7 +11,7 @@ from mpmath import mpf
 from sympy import Expr, Integral, Symbol, sqrt
 
 from derive.proof.points import Point, contacts, loads, named, numeric
-from derive.proof.quadrature import Contact
+from derive.proof.quadrature import value_by_quadrature
 from derive.proof.values import Undecided
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet.formulas import Formula, FormulaSheet
@@ -35,9 +35,8 @@ def numeric_proof(sheet: FormulaSheet, name: str) -> Proof | None:
         if sheet[name].arguments[0] == P and name not in _STICK:
             return _substituted(sheet, sheet[name])
         if stem in _OF_G:
-            words, value = _OF_G[stem]
-            g = sheet.geometry.g
-            return _compared(sheet, words, lambda p: (_at(sheet, name, p), value(Contact(g, p))))
+            value = value_by_quadrature(sheet.geometry.g, stem)
+            return _compared(sheet, _OF_G[stem], lambda p: (_at(sheet, name, p), _value(value, p)))
     return None
 
 
@@ -85,19 +84,18 @@ def _substituted(sheet: FormulaSheet, formula: Formula) -> Proof:
     return numerical_proof(f"substituted into {_names(asked)}", comparisons())
 
 
-def _at_edge(K: str, side: str) -> tuple[str, Callable[[Contact], mpf]]:
-    """The route to a coefficient of p/sqrt(s) at an edge."""
-    return f"{_QUADRATURE}, at the {side} edge", lambda on: getattr(on, K)(side)
-
-
-_OF_G: dict[str, tuple[str, Callable[[Contact], mpf]]] = {
-    "tilt": (_QUADRATURE, lambda on: on.tilt),
-    "load": ("(E*/2) I_1 of g(x) by quadrature", lambda on: on.load),
-    "moment": ("-(E*/2) (I_2 - mid I_1) of g(x) by quadrature", lambda on: on.moment),
-    "pressure": (_QUADRATURE, lambda on: on.pressure),
-    **{f"{K}_{side}": _at_edge(K, side) for K in ("K_N", "L_N") for side in ("left", "right")},
+_OF_G = {
+    "tilt": _QUADRATURE,
+    "load": "(E*/2) I_1 of g(x) by quadrature",
+    "moment": "-(E*/2) (I_2 - mid I_1) of g(x) by quadrature",
+    "pressure": _QUADRATURE,
+    **{
+        f"{K}_{side}": f"{_QUADRATURE}, at the {side} edge"
+        for K in ("K_N", "L_N")
+        for side in ("left", "right")
+    },
 }
-"""The route of each formula that is a defining integral."""
+"""Each formula that is a defining integral, with the words for its route."""
 
 
 def _at(sheet: FormulaSheet, name: str, point: Point) -> mpf:

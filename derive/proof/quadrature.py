@@ -1,97 +1,66 @@
 """The defining integrals of a contact, by quadrature of g(x) as the user wrote it.
 
-In:  g(x), and numbers for the parameters and the contact.
-Out: the integrals of theory.equilibrium and theory.pressure, before anything was done with them.
+In:  g(x), and the name of a formula.
+Out: its value by the integrals of theory.equilibrium and theory.pressure, before anything was done
+     with them.
 """
 
-from functools import cache
+from sympy import (
+    Expr,
+    Integral,
+    Max,
+    Min,
+    Piecewise,
+    Symbol,
+    diff,
+    nan,
+    pi,
+    piecewise_fold,
+    sqrt,
+    zoo,
+)
 
-import mpmath
-from mpmath import mpf
-from sympy import Expr, Integral, Max, Min, Piecewise, Symbol, diff, nan, piecewise_fold, zoo
-
-from derive.proof.balls import digits, number
-from derive.proof.values import Numbers, Undecided, enclosed
-from derive.symbols import E_star, a, alpha, c, mid, w, x
+from derive.symbols import E_star, a, c, h, mid, w, x
 
 _s = Symbol("xi", real=True)
 """The variable of integration."""
 
 
-@cache
-def _integrals(g: Expr) -> dict[str, Expr]:
-    """The integrals over a contact, which are divided by w; I_1 and I_2 contain the tilt.
+def value_by_quadrature(g: Expr, name: str) -> Expr:
+    """A value of the contact [-a, c] by its defining integrals: tilt, load, moment, pressure at x,
+    or K_N and L_N, such as K_N_left.
 
-    PV int g'(s)/(w(s) (s - x)) ds is taken with its singularity subtracted: F(x).  Its rate of
-    change at an edge is F' there.
+    PV int g'(s)/(w(s) (s - x)) ds is taken with its singularity subtracted: F(x).  The pressure is
+    (E*/2 pi) w F, so that K_N is its value over sqrt(s) at the edge, and L_N that of the next power
+    of s: p = (E*/2 pi) sqrt(s) sqrt(h - s) F.
     """
     slope = slope_as_given(g)
     at = slope.subs(x, _s)
-    integrands = {
-        "I_0": at,
-        "I_1": _s * (at + alpha),
-        "I_2 - mid I_1": _s * (_s - mid) * (at + alpha),
-        "F": (at - slope) / (_s - x),
-    }
-    for side, edge in (("left", -a), ("right", c)):
-        rise, distance = at - slope.subs(x, edge), _s - edge
-        bent = rise - diff(slope, x).subs(x, edge) * distance
-        integrands |= {f"F {side}": rise / distance, f"F' {side}": bent / distance**2}
-    root = w.subs(x, _s)
-    return {name: Integral(each / root, (_s, -a, c)) for name, each in integrands.items()}
+    tilt = -_over_w(at) / pi
+    match name.split("_"):
+        case ["tilt"]:
+            return tilt
+        case ["load"]:
+            return E_star / 2 * (_over_w(_s * at) + tilt * _over_w(_s))
+        case ["moment"]:
+            lever = _s * (_s - mid)
+            return -E_star / 2 * (_over_w(lever * at) + tilt * _over_w(lever))
+        case ["pressure"]:
+            return E_star / (2 * pi) * sqrt((a + x) * (c - x)) * _over_w((at - slope) / (_s - x))
+        case [letter, _, side]:
+            edge, inward = (-a, 1) if side == "left" else (c, -1)
+            rise, distance = at - slope.subs(x, edge), _s - edge
+            principal = sqrt(h) * _over_w(rise / distance)
+            if letter == "K":
+                return E_star / (2 * pi) * principal
+            bent = rise - diff(slope, x).subs(x, edge) * distance
+            rate = inward * sqrt(h) * _over_w(bent / distance**2)
+            return E_star / (2 * pi) * (rate - principal / (2 * h))
+    raise KeyError(name)
 
 
-class Contact:
-    """One contact [-a, c] of one body, in numbers; a value that is not obtained is NaN."""
-
-    def __init__(self, g: Expr, numbers: Numbers) -> None:
-        self.g, self.numbers = g, numbers
-        self.a, self.c, self.E_star = (numbers[symbol] for symbol in (a, c, E_star))
-        self.h = self.a + self.c
-
-    def _integral(self, name: str, numbers: Numbers) -> mpf:
-        try:
-            with digits(3 * mpmath.mp.dps):
-                return number(enclosed(_integrals(self.g)[name], numbers, twice=False))
-        except Undecided:
-            return mpf("nan")
-
-    @property
-    def tilt(self) -> mpf:
-        """alpha from I_0 = 0."""
-        return -self._integral("I_0", self.numbers) / mpmath.pi
-
-    @property
-    def load(self) -> mpf:
-        """(E*/2) I_1."""
-        return self.E_star / 2 * self._integral("I_1", self._tilted)
-
-    @property
-    def moment(self) -> mpf:
-        """-(E*/2) (I_2 - mid I_1)."""
-        return -self.E_star / 2 * self._integral("I_2 - mid I_1", self._tilted)
-
-    @property
-    def _tilted(self) -> Numbers:
-        return {**self.numbers, alpha: self.tilt}
-
-    @property
-    def pressure(self) -> mpf:
-        """p at x."""
-        weight = mpmath.sqrt((self.a + self.numbers[x]) * (self.c - self.numbers[x]))
-        return self.E_star / (2 * mpmath.pi) * weight * self._integral("F", self.numbers)
-
-    def K_N(self, side: str) -> mpf:
-        """The limit of p/sqrt(s) at an edge, s being the distance from it."""
-        principal = self._integral(f"F {side}", self.numbers)
-        return self.E_star / (2 * mpmath.pi) * mpmath.sqrt(self.h) * principal
-
-    def L_N(self, side: str) -> mpf:
-        """The limit of (p/sqrt(s) - K_N)/s; p = (E*/2 pi) sqrt(s) sqrt(h - s) F(x)."""
-        rate = self._integral(f"F' {side}", self.numbers) * (1 if side == "left" else -1)
-        principal = self._integral(f"F {side}", self.numbers)
-        growth = mpmath.sqrt(self.h) * rate - principal / (2 * mpmath.sqrt(self.h))
-        return self.E_star / (2 * mpmath.pi) * growth
+def _over_w(density: Expr) -> Expr:
+    return Integral(density / w.subs(x, _s), (_s, -a, c))
 
 
 def slope_as_given(g: Expr) -> Expr:
