@@ -9,7 +9,7 @@ conditions are then tested with numbers (trial.py), as is any other curvature.
 """
 
 from collections.abc import Iterator
-from itertools import pairwise, product
+from itertools import pairwise
 from math import gcd
 
 from sympy import (
@@ -119,12 +119,10 @@ def _factored(expr: Expr) -> Expr:
 # ------------------------------------------------------------------ signs of expressions without x
 
 
-def _open(expr: Expr, sure: bool = True) -> Expr | None:
+def _open(expr: Expr) -> Expr | None:
     """The factor that decides the sign of an expression without x.
 
     It is 1 if the expression is never negative, and None if it is never positive.
-
-    sure: examine further any factor whose sign SymPy does not know.
     """
     decides, negative = Integer(1), False
     for part in Mul.make_args(_factored(expr)):
@@ -132,19 +130,11 @@ def _open(expr: Expr, sure: bool = True) -> Expr | None:
             continue
         if part.is_extended_nonpositive:
             negative = not negative
-        elif not (sure and _is_sum_of_means(part)):
+        else:
             decides *= part.base if part.is_Pow and part.exp.is_odd else part
     if negative:
         return None if decides == 1 else -decides
     return decides
-
-
-def _is_sum_of_means(expr: Expr) -> bool:
-    """Whether a polynomial of positive parameters is never negative, such as p^2 - p q + q^2."""
-    for symbol in sorted(expr.free_symbols, key=str):
-        if expr.is_polynomial(symbol) and Poly(expr, symbol).degree() > 1:
-            return _at_least_zero(_terms(expr, symbol), sure=False) == []
-    return False
 
 
 def _positive(expr: Expr, relation: type[Relational] = Gt) -> list[Boolean] | None:
@@ -224,11 +214,11 @@ def _terms(expr: Expr, t: Symbol) -> Terms:
     return {n: value for n, value in found.items() if value != 0}
 
 
-def _at_least_zero(terms: Terms, sure: bool = True) -> list[Boolean] | None:
+def _at_least_zero(terms: Terms) -> list[Boolean] | None:
     """Conditions that make a polynomial nonnegative for all t >= 0; None if none are found."""
     if not terms:
         return []
-    signs = {n: _open(value, sure) for n, value in terms.items()}
+    signs = {n: _open(value) for n, value in terms.items()}
     ends, inner = {max(terms), min(terms)}, [n for n in terms if n not in (max(terms), min(terms))]
     if any(signs[n] is None for n in ends):
         return None
@@ -240,13 +230,6 @@ def _at_least_zero(terms: Terms, sure: bool = True) -> list[Boolean] | None:
         return None
     if len(terms) == 3:
         return _means(terms, signs[doubtful[0]] is None)
-    if len(doubtful) == 1 and signs[doubtful[0]] is None:
-        middle = doubtful[0]
-        for high, low in product(terms, repeat=2):
-            if high > middle > low and signs[high] == signs[low] == 1:
-                part = {n: terms[n] for n in (high, middle, low)}
-                if _means(part, True) == []:
-                    return []
     if max(terms) - min(terms) == 3 and any(signs[n] is None for n in doubtful):
         t = Dummy("t", positive=True)
         cubic = sum(value * t ** (n - min(terms)) for n, value in terms.items())

@@ -15,7 +15,6 @@ from sympy import (
     Dummy,
     E,
     Expr,
-    Float,
     Function,
     Heaviside,
     Integer,
@@ -108,7 +107,7 @@ class Slope:
     @cached_property
     def quadratics(self) -> tuple[Expr, ...]:
         """Quadratics in x whose square roots occur in g'."""
-        powers = {p for piece in self.pieces for p in exact(piece.slope).atoms(Pow)}
+        powers = {p for piece in self.pieces for p in piece.slope.atoms(Pow)}
         found = {
             expand(p.base)
             for p in powers
@@ -307,11 +306,6 @@ def branch_points(profile: Expr) -> list[Expr]:
         if numerator.is_polynomial(x):
             found |= dict.fromkeys(simplify(root) for root in roots(Poly(numerator, x)))
     return list(found)
-
-
-def exact(expr: Expr) -> Expr:
-    """`expr` with every float replaced by its exact binary fraction."""
-    return expr.xreplace({number: Rational(number) for number in expr.atoms(Float)})
 
 
 def _is_natural(exponent: Expr) -> bool:

@@ -62,17 +62,15 @@ def typical(demands: tuple[Boolean, ...]) -> Values:
         given = {p: 1 + value for p, value in least.items()} | values
         return _meets(given, demands)
 
-    def rank(values: Values) -> tuple[int, int]:
-        """How many of 40 similar sets meet the conditions, up to a limit; then nearness to one."""
-        near = sum(met(drawn(values, 1)) for _ in range(40))
-        exponents = (abs(v.p.bit_length() - v.q.bit_length()) for v in values.values())
-        return min(near, _ENOUGH), -max(map(int, exponents))
+    def near(values: Values) -> int:
+        """How many of 40 similar sets meet the conditions, up to a limit."""
+        return min(sum(met(drawn(values, 1)) for _ in range(40)), _ENOUGH)
 
     ones = dict.fromkeys(symbols, Integer(1))
-    if not symbols or rank(ones)[0] == _ENOUGH:
+    if not symbols or near(ones) == _ENOUGH:
         return {}
     found = (drawn(ones, spread) for spread in (2, 4, 8, 12) for _ in range(50))
-    return max(filter(met, found), key=rank, default={})
+    return max(filter(met, found), key=near, default={})
 
 
 def _meets(values: Values, demands: tuple[Boolean, ...]) -> bool:

@@ -29,7 +29,6 @@ from sympy import (
     sqrt,
 )
 
-from derive.body.profile import exact
 from derive.command.limit import LookAtClock
 from derive.symbols import E_star, a, c, h, mid, x
 from derive.theory.algebra import tidy
@@ -90,7 +89,7 @@ def read_parts(frame: Frame) -> Parts:
     pieces = frame.slope.pieces
     parts = Parts([S.Zero] * len(pieces))
     for number, piece in enumerate(pieces):
-        slope = expand(exact(piece.slope), power_base=False, power_exp=False, log=False)
+        slope = expand(piece.slope, power_base=False, power_exp=False, log=False)
         for term in Add.make_args(slope):
             parts.add(number, *_read(frame, term))
     return parts
