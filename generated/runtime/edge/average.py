@@ -38,25 +38,22 @@ def averaged(
     x: Any,
     s: Any,
     y: Any,
-    rate: Any,
-    mesh: Any,
+    sd: Any,
     half: int,
     columns: Any,
     spread: float,
     read: Callable[[Any], Any],
 ) -> Any:
-    """A record of the average of all fits of columns @ b to y, or of NaN with the reason.
+    """A record of the average of all fits of columns @ b to y, or of the reason why there is none.
 
     x        nodes of the contact
     s, y     distances of its inner nodes from the edge, and y there
-    rate     change in y over that in the traction
-    mesh     error of the traction due to the mesh
+    sd       standard deviation of y
     half     number of nodes that belong to this edge
-    columns  five columns of the linear model
+    columns  columns of the linear model
     spread   standard deviation of b_0, which is zero in the mean
     read     coefficients of the edge as an analytic function of b; NaN if there are none
     """
-    sd = rate * np.hypot(_scatter(s, y, rate), mesh)
     weighted = np.vstack([np.eye(1, columns.shape[1]) / spread, (columns / sd[:, None])[:half]])
     target = np.append(0.0, (y / sd)[:half])
     counts = np.unique(np.geomspace(3, half, 40).astype(int))
@@ -71,8 +68,8 @@ def averaged(
         # a step in the complex plane gives derivatives that are exact to rounding
         steps = 1e-30j * np.eye(terms)
         rates = np.stack([read((b + one).T).imag / 1e-30 for one in steps], axis=-1)
-        deviations = np.einsum("vct,ctn->vcn", rates, inverse)
-        return misfit, read(b.T), np.sum(deviations**2, axis=-1)
+        deviations = np.einsum("vct,ctn->cvn", rates, inverse)
+        return misfit, read(b.T).T, np.sum(deviations**2, axis=-1)
 
     with np.errstate(all="ignore"):
         chain = zip(*(fit(terms) for terms in range(2, columns.shape[1] + 1)), strict=True)
@@ -80,20 +77,22 @@ def averaged(
         terms = np.arange(2, columns.shape[1])[:, None]
         excess = misfit[:-1] / (counts + 1 - terms)
         # the fit with one coefficient more, and the change due to it
-        variance = variance[1:] * np.maximum(excess, 1.0)[:, None] + np.diff(values, axis=0) ** 2
-        exists = np.all(np.isfinite(variance), axis=1) & (terms < counts)
+        variance = variance[1:] * np.maximum(excess, 1.0)[..., None] + np.diff(values, axis=0) ** 2
+        exists = np.all(np.isfinite(variance), axis=-1) & (terms < counts)
         penalty = terms + half - counts + terms * (terms + 1) / (counts - terms)
         cost = np.where(exists, misfit[:-1] / 2 + penalty, np.inf)
     if not np.any(exists):
-        return nothing(
-            kind,
-            half,
-            "no range of nodes follows the square-root law: the mesh is too coarse, a kink or slip "
-            "lies next to the edge, or the contact is complete",
+        return kind(
+            nodes=half,
+            warning="no range of nodes follows the square-root law: the mesh is too coarse, a kink "
+            "or slip lies next to the edge, or the contact is complete",
         )
     best = np.unravel_index(np.argmin(cost), cost.shape)
-    values, variance = (np.moveaxis(of, 1, -1)[exists] for of in (values[1:], variance))
-    weights = np.exp(cost[best] - cost[exists])
+    values, variance, weights = (
+        values[1:][exists],
+        variance[exists],
+        np.exp(cost[best] - cost[exists]),
+    )
     mean = np.average(values, axis=0, weights=weights)
     errors = np.sqrt(np.average(variance + (values - mean) ** 2, axis=0, weights=weights))
     count, fitted, off = int(counts[best[1]]), int(best[0]) + 2, math.sqrt(excess[best])
@@ -123,12 +122,7 @@ def _warning(x: Any, part: float, name: str) -> str:
     return "; ".join(reasons)
 
 
-def nothing(kind: Any, nodes: int, why: str) -> Any:
-    """A record of NaN, with the reason as its warning."""
-    return kind(*[math.nan] * (len(kind._fields) - 6), nodes, math.nan, 0, math.nan, "", why)
-
-
-def _scatter(s: Any, y: Any, rate: Any) -> float:
+def scatter(s: Any, y: Any, rate: Any) -> float:
     """Standard deviation of the traction, from cubics fitted to six nodes each.
 
     At most two thirds of these ranges are assumed to meet a kink.

@@ -21,7 +21,7 @@ from numpy.polynomial import polynomial
 
 from ..arrays import number, real
 from ..types import Edges, Values
-from .average import averaged, nothing
+from .average import averaged, scatter
 
 EDGE_SPREAD = 0.35
 """Standard deviation of the edge of a mesh from that of the contact, in elements."""
@@ -57,18 +57,18 @@ class PressureFit(NamedTuple):
         Reasons to doubt the result; "" if there are none.
     """
 
-    edge: float
-    K_N: float
-    L_N: float
-    edge_error: float
-    K_N_error: float
-    L_N_error: float
-    nodes: int
-    stretch: float
-    degree: int
-    misfit: float
-    why: str
-    warning: str
+    edge: float = math.nan
+    K_N: float = math.nan
+    L_N: float = math.nan
+    edge_error: float = math.nan
+    K_N_error: float = math.nan
+    L_N_error: float = math.nan
+    nodes: int = 0
+    stretch: float = math.nan
+    degree: int = 0
+    misfit: float = math.nan
+    why: str = ""
+    warning: str = ""
 
 
 class ShearFit(NamedTuple):
@@ -84,16 +84,16 @@ class ShearFit(NamedTuple):
         As in PressureFit, of dq sqrt(s).
     """
 
-    K_T: float
-    L_T: float
-    K_T_error: float
-    L_T_error: float
-    nodes: int
-    stretch: float
-    degree: int
-    misfit: float
-    why: str
-    warning: str
+    K_T: float = math.nan
+    L_T: float = math.nan
+    K_T_error: float = math.nan
+    L_T_error: float = math.nan
+    nodes: int = 0
+    stretch: float = math.nan
+    degree: int = 0
+    misfit: float = math.nan
+    why: str = ""
+    warning: str = ""
 
 
 def fit_pressure(x: Values, p: Values) -> PressureFit:
@@ -137,20 +137,20 @@ def fit_pressure(x: Values, p: Values) -> PressureFit:
             "contact at a time"
         )
     if last - first < 9:
-        why = f"{last - first + 1} nodes in contact are too few: use a finer mesh"
-        return nothing(PressureFit, last - first + 1, why)
+        few = f"{last - first + 1} nodes in contact are too few: use a finer mesh"
+        return PressureFit(nodes=last - first + 1, warning=few)
     inward = np.sign(places[-1] - places[0])
     element = abs(places[first] - places[first - 1 if first else first + 1])
     middle = places[first] - inward * element / 2
     # the outermost nodes belong to elements that are only partly in contact
     s, y = inward * (places[inner] - middle), values[inner]
+    mesh = PRESSURE_MESH_ERROR * y * (element / s) ** 2.5
     found = averaged(
         PressureFit,
         places[contact],
         s,
         y**2,
-        rate=2 * y,
-        mesh=PRESSURE_MESH_ERROR * y * (element / s) ** 2.5,
+        sd=2 * y * np.hypot(scatter(s, y**2, 2 * y), mesh),
         half=max(int(np.argmax(y)) + 1, len(y) // 2),
         columns=np.vander(s / s[-1], 6, increasing=True),
         spread=EDGE_SPREAD * element * y[0] ** 2 / s[0],
@@ -207,19 +207,18 @@ def fit_stuck_shear(x: Values, dq: Values, edge: float, edge_error: float = 0.0)
     inside = (s >= element / 2) & (s <= np.max(s[values != 0], initial=0.0))
     s, values = s[inside][1:], values[inside][1:]
     if len(s) < 8:
-        count = int(np.sum(inside))
-        why = f"{count} nodes with a shear traction are too few: use a finer mesh"
-        return nothing(ShearFit, count, why)
+        few = f"{np.sum(inside)} nodes with a shear traction are too few: use a finer mesh"
+        return ShearFit(nodes=int(np.sum(inside)), warning=few)
     width = s[-1] + element  # the other edge lies about there, if the table reaches it
     y = values * np.sqrt(s * (1 - s / width))
     level = np.median(np.abs(y[: len(s) // 2]))
+    mesh = SHEAR_MESH_ERROR * level * (element / s) ** 2.5
     found = averaged(
         ShearFit,
         places[inside],
         s,
         y,
-        rate=np.ones(len(s)),
-        mesh=SHEAR_MESH_ERROR * level * (element / s) ** 2.5,
+        sd=np.hypot(scatter(s, y, np.ones(len(s))), mesh),
         half=len(s) // 2,
         columns=np.column_stack([element / s / 2, np.vander(s / s[-1], 4, increasing=True)]),
         spread=level * math.hypot(EDGE_SPREAD, edge_error / element),
