@@ -58,22 +58,16 @@ def averaged(
     target = np.append(0.0, (y / sd)[:half])
     counts = np.unique(np.geomspace(3, half, 40).astype(int))
     used = np.arange(half + 1) <= counts[:, None]
-
-    def fit(terms: int) -> Any:
-        """Squared misfits, values and variances of the fits to each number of nodes."""
-        part = weighted[:, :terms] * used[..., None]
+    first = np.tri(columns.shape[1])[1:, None, None]  # from two columns to all
+    with np.errstate(all="ignore"):
+        part = weighted * used[..., None] * first
         inverse = np.linalg.pinv(part)
         b = inverse @ target
-        misfit = np.sum((used * target - (part @ b[..., None])[..., 0]) ** 2, axis=1)
+        misfit = np.sum((used * target - (part @ b[..., None])[..., 0]) ** 2, axis=-1)
         # a step in the complex plane gives derivatives that are exact to rounding
-        steps = 1e-30j * np.eye(terms)
-        rates = np.stack([read((b + one).T).imag / 1e-30 for one in steps], axis=-1)
-        deviations = np.einsum("vct,ctn->cvn", rates, inverse)
-        return misfit, read(b.T).T, np.sum(deviations**2, axis=-1)
-
-    with np.errstate(all="ignore"):
-        chain = zip(*(fit(terms) for terms in range(2, columns.shape[1] + 1)), strict=True)
-        misfit, values, variance = (np.stack(each) for each in chain)
+        steps = 1e-30j * np.eye(columns.shape[1])
+        rates = np.stack([read((b + one).T).T.imag / 1e-30 for one in steps], axis=-1)
+        values, variance = read(b.T).T, np.sum((rates @ inverse) ** 2, axis=-1)
         terms = np.arange(2, columns.shape[1])[:, None]
         excess = misfit[:-1] / (counts + 1 - terms)
         # the fit with one coefficient more, and the change due to it

@@ -222,7 +222,7 @@ def fit_stuck_shear(x: Values, dq: Values, edge: float, edge_error: float = 0.0)
         half=len(s) // 2,
         columns=np.column_stack([element / s / 2, np.vander(s / s[-1], 4, increasing=True)]),
         spread=level * math.hypot(EDGE_SPREAD, edge_error / element),
-        read=lambda b: np.stack([b[1], b[2] / s[-1] if len(b) > 2 else 0 * b[1]]),
+        read=lambda b: np.stack([b[1], b[2] / s[-1]]),
     )
     # a mesh bonded over another width carries the same load with another K_T
     width_error = EDGE_SPREAD * element / width / math.sqrt(2) * abs(found.K_T)
