@@ -247,12 +247,7 @@ def _from_loads(
     found = {}
     for side, sign in INWARD.items():
         (K_T, L_T), (K_2, L_2) = coefficients(h, sign), coefficients(h + h_error, sign)
-        found[side] = ShearFit(
-            *(K_T, L_T, abs(K_2 - K_T), abs(L_2 - L_T)),
-            *(0, nan, 0, nan),  # no nodes and no fit
-            why="",
-            warning="",
-        )
+        found[side] = ShearFit(K_T, L_T, abs(K_2 - K_T), abs(L_2 - L_T))  # without nodes and a fit
     return found
 
 
