@@ -186,3 +186,11 @@ def number(value: Any, name: str, kind: str = "finite") -> float:
     if np.ndim(found) or not (math.isfinite(found) and np.sign(found) in signs[kind]):
         raise ValueError(f"{name} must be one {kind} number; got {value!r:.60}")
     return float(found)
+
+
+def demand_order(order: Any) -> None:
+    """Raise TypeError unless the order is a whole number, ValueError unless it is 1 or 2."""
+    if isinstance(order, bool) or not isinstance(order, int | np.integer):
+        raise TypeError(f"order must be a whole number; got {order!r:.60}")
+    if order not in (1, 2):
+        raise ValueError(f"order must be 1 or 2; got {order}")

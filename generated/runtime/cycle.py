@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .arrays import numbers_of, shape_of, solved
+from .arrays import demand_order, numbers_of, shape_of, solved
 from .body import Body
 from .chunks import any_lazy
 from .forward import each_contact, each_contact_at_tilt, each_pressure, each_series, each_state
@@ -43,14 +43,6 @@ def _named(half_cycle: HalfCycle) -> tuple[Own, Own]:
     first, second, dQ, dsigma, f, E_star = half_cycle
     edges = edges_of(first, "first") | edges_of(second, "second")
     return edges | {"dQ": dQ, "dsigma": dsigma}, {"f": f, "E_star": E_star}
-
-
-def demand_order(order: Any) -> None:
-    """Raise TypeError unless the order is a whole number, ValueError unless it is 1 or 2."""
-    if isinstance(order, bool) or not isinstance(order, int | np.integer):
-        raise TypeError(f"order must be a whole number; got {order!r:.60}")
-    if order not in (1, 2):
-        raise ValueError(f"order must be 1 or 2; got {order}")
 
 
 # ---------------------------------------------------------------- a contact

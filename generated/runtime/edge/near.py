@@ -27,8 +27,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import evaluated
-from ..cycle import demand_order
+from ..arrays import demand_order, evaluated
 from ..types import Array, Values
 
 
