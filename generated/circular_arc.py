@@ -45,7 +45,7 @@ def tilt(a: Values, c: Values, *, R: Values) -> Array:
         g'(xi) = xi/sqrt(R**2 - xi**2)
 
     Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  Evaluated by quadrature.
+    g(x).  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Checked numerically to 50 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
-    Evaluated by quadrature.
+    Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Checked numerically to 50 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
-    quadrature.  Evaluated by quadrature.
+    quadrature.  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> A
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  Evaluated by quadrature.
+    g(x).  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -165,7 +165,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
 
     K_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), at the left edge.  K_N_right: checked numerically to 50 digits at 24 points.
-    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
+    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature,
+    in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -197,7 +198,8 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
 
     L_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), at the left edge.  L_N_right: checked numerically to 50 digits at 24 points.
-    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
+    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature,
+    in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------

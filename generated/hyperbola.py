@@ -45,7 +45,7 @@ def tilt(a: Values, c: Values, *, b: Values, phi: Values) -> Array:
         g'(xi) = phi*xi/sqrt(b**2 + xi**2)
 
     Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  Evaluated by quadrature.
+    g(x).  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Checked numerically to 50 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
-    Evaluated by quadrature.
+    Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Checked numerically to 50 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
-    quadrature.  Evaluated by quadrature.
+    quadrature.  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  Evaluated by quadrature.
+    g(x).  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -169,7 +169,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
     K_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), at the left edge.  K_N_right: checked numerically to 50 digits at 24 points.
-    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
+    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature,
+    in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -202,7 +203,8 @@ def L_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
     L_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), at the left edge.  L_N_right: checked numerically to 50 digits at 24 points.
-    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
+    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature,
+    in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------

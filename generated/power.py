@@ -45,7 +45,7 @@ def tilt(a: Values, c: Values, *, L: Values, k: Values) -> Array:
         g'(xi) = Piecewise((-L**(1 - k)*(-xi)**(k - 1), xi < 0), (L**(1 - k)*xi**(k - 1), True))
 
     Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  Evaluated by quadrature.
+    g(x).  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def load(a: Values, c: Values, *, E_star: Values, L: Values, k: Values) -> Array
             2)*(k - 1), True))
 
     Checked numerically to 49 digits at 24 points.  Route: (E*/2) I_1 of g(x) by quadrature.
-    Evaluated by quadrature.
+    Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def moment(a: Values, c: Values, *, E_star: Values, L: Values, k: Values) -> Arr
             2)*(k - 1), True))
 
     Checked numerically to 49 digits at 24 points.  Route: -(E*/2) (I_2 - mid I_1) of g(x) by
-    quadrature.  Evaluated by quadrature.
+    quadrature.  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values, k: V
             2)*(k - 1), True))
 
     Checked numerically to 49 digits at 24 points.  Route: quadrature of the defining integral of
-    g(x).  Evaluated by quadrature.
+    g(x).  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -173,7 +173,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values, k: Values) -> Edges:
 
     K_N_left: checked numerically to 49 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), at the left edge.  K_N_right: checked numerically to 49 digits at 24 points.
-    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
+    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature,
+    in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------
@@ -207,7 +208,8 @@ def L_N(a: Values, c: Values, *, E_star: Values, L: Values, k: Values) -> Edges:
 
     L_N_left: checked numerically to 49 digits at 24 points.  Route: quadrature of the defining
     integral of g(x), at the left edge.  L_N_right: checked numerically to 49 digits at 24 points.
-    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature.
+    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature,
+    in equal forms that keep their digits (runtime/pieces.py).
 
     Parameters
     ----------

@@ -131,7 +131,7 @@ def _position(position: Expr, slope: Expr) -> tuple[Expr, dict[Symbol, Expr]]:
 
     With roots of several parameters, the search for short forms would take minutes.
 
-    >>> from sympy import symbols
+    >>> from sympy import sqrt, symbols
     >>> b, R = symbols("b R", positive=True)
     >>> _position(-b, x / R)
     (-b, {})

@@ -27,7 +27,7 @@ slope, curvature, kernel = map(Function, ("g'", "g''", "kernel"))
 class IntegratedText(FunctionText):
     """The text of one function that is evaluated by quadrature."""
 
-    note = "  Evaluated by quadrature."
+    note = "  Evaluated by quadrature, in equal forms that keep their digits (runtime/pieces.py)."
 
     def _made(self) -> Program:
         """No program: no formula is rewritten, and the trial of the module tests the rest."""

@@ -73,6 +73,14 @@ def test_a_draft_says_what_was_read_and_judges_nothing(tmp_path: Path) -> None:
     assert all(each["reason"] for each in told)
 
 
+def test_displays_of_one_label_are_counted(tmp_path: Path) -> None:
+    new = tmp_path / "draft.toml"
+    again = PAPER.replace(r"\[ u = v \]", r"\begin{equation}\label{first} u = v \end{equation}")
+    run(written(tmp_path, again), "--draft", new)
+    labels = [claim["label"] for claim in tomllib.loads(new.read_text())["claims"]]
+    assert [label for label in labels if label.startswith("first")] == ["first", "first [2]"]
+
+
 def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """One line with the file, and nothing is left or lost."""
 

@@ -105,6 +105,7 @@ def test_standard_meanings_are_those_of_the_theory(head: str, tmp_path: Path) ->
     [
         ("[symbols]\np_0 = 'P/a'\n", "p_0 = pi*E_star*a/(4*R)"),
         ("[symbols]\np_0 = { unit = 'Pa' }\n", "p_0 = E_star*a/(2*R)"),
+        ("[symbols]\np_at_b = 'P/a'\n", "p_at_0 = E_star*a/(2*R)"),
         (
             "[symbols]\nm = 'k*a'\n[variables]\nk = { low = 0.1, high = 0.9 }\n",
             "Q = f*P*(1 - k**2)",

@@ -169,6 +169,9 @@ CASES = [
     (FREE, "elliptic_k(1 - n) = log(4) - log(n)/2", f"{N_0}\norder = 1", "fails"),
     (FREE, "integral(sin(s), s, 0, n) = n**2/2", f"{N_0}\norder = 5", "fails"),
     (FREE, "k*(0.9 - k) ~ 0.9*(0.9 - k)", 'as = "k -> 0.9"', "numerical"),
+    (FREE, "abs(a - c) ~ a*(1 - k)", 'as = "k -> 1"', "numerical"),  # c < a within the range
+    (FREE, "abs(a - c) ~ 2*a*(1 - k)", 'as = "k -> 1"', "fails"),
+    (FREE, "max(0, k - m) = 2*max(0, k - m)", "", "fails"),  # both are zero at some points
     # values at an edge, and at the end of a stick zone
     (HERTZ, "pressure(-a, a, a) = 0", "", "holds"),
     (HERTZ, "pressure(a, a, a) = p_0", "", "fails"),

@@ -1,6 +1,7 @@
 """What the docstrings of integrated bodies print, computed by mpmath, is what the sheet says by
 closed formulas, which were derived another way."""
 
+import mpmath
 import pytest
 from mpmath import mpf
 from sympy import Abs, Expr, Integral, Max, Piecewise, S, lambdify
@@ -15,7 +16,7 @@ from derive.theory.superposition import xi
 
 R = parameter("R", "radius", unit="m")
 b = parameter("b", "half-width", unit="m")
-w = parameter("w", "half-width", unit="m")
+phi = parameter("phi", "slope", unit="rad")
 
 TIP_AND_CORNER = phi * Max(0, x - 2 * b) + Piecewise(
     (phi * (3 * x**2 / (4 * b) - x**4 / (8 * b**3)), Abs(x) < b),

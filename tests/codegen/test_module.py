@@ -1,6 +1,7 @@
 """Modules as text: only of what is proven, the same every time, clean, standalone and right."""
 
 import ast
+import re
 import warnings
 from dataclasses import replace
 from typing import Any

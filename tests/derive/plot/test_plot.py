@@ -302,10 +302,14 @@ REFUSED: dict[str, Callable[[], Any]] = {
     "`states` is empty; give at least one": pressures,
     "1 labels are given for 2": lambda: pressures(STATE, STATE, labels=("one",)),
     "first is NaN: there is no contact under its loads": lambda: half_cycle(first=NO_CONTACT),
-    r"with numbers as arguments; got arrays of shape \(3,\)": lambda: half_cycle(dQ=np.ones(3)),
+    r"dQ is array\(.*; give one finite number": lambda: half_cycle(dQ=np.ones(3)),
+    r"first is .*, not a single Contact": lambda: half_cycle(first=SEVERAL),
+    "Q is nan; give one finite number": lambda: plot.shear(
+        hertz, STATE, np.nan, 0.0, DQ, 0.0, **FRICTION
+    ),
     "dQ = -150000 is negative: pass the half-cycle": lambda: half_cycle(dQ=-DQ),
     "f = 0 is not positive and finite": lambda: half_cycle(f=0),
-    "dsigma = nan is not finite": lambda: half_cycle(dsigma=np.nan),
+    "dsigma is nan; give one finite number": lambda: half_cycle(dsigma=np.nan),
     "give one cycle": lambda: plot.stick_slip(TWO),
     "time is .*; give one row of 41 finite numbers": lambda: plot.stick_slip(ONE, [0.0, 1.0]),
     "parameter is 1.0; give one row of at least two": lambda: sweep(parameter=1.0),
