@@ -5,15 +5,15 @@ some variables are then moved to a place where the claim may fail:
 
     points    nowhere: variables of moderate size, or spread evenly over a declared range
     further   over many decades; near the ends of ranges; past a numerical limit of integration;
-              to both sides of a zero of a modulus, a logarithm, a root or the like; and to where
-              such a thing, or a spike, is stationary
+              to both sides of a zero of a modulus, a logarithm, a root or the like; between two
+              such zeros; and to where such a thing, or a spike, is stationary
 """
 
 import hashlib
 import random
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache
-from itertools import chain, islice
+from itertools import chain, islice, pairwise
 from math import nan
 from typing import Any, NamedTuple
 
@@ -45,6 +45,8 @@ _LOOKED_AT = 10
 """The largest number of expressions of a claim whose zeros are sought."""
 _DECADES = 6
 """The decades over which a variable without a range is spread."""
+_APART = 1e-9
+"""Two zeros are different if they are this far apart, relative to their size."""
 _GRID = 96
 """Number of grid points for the sign of an expression; an even number leaves out the middle."""
 
@@ -167,7 +169,8 @@ def further(claim: Claim, exprs: Sequence[Expr]) -> Iterator[Point]:
         peaks = [inner for expr in exprs for inner in peaked(expr)]
         either_side = drawn.either_side(switch.of for switch in found)
         stationary = islice(drawn.stationary([*kinks, *peaks]), 2 * numbers.special)
-        groups += [islice(either_side, numbers.special), stationary]
+        between = islice(drawn.between([switch.of for switch in found]), numbers.special)
+        groups += [islice(either_side, numbers.special), stationary, between]
     yield from (point for point in chain.from_iterable(groups) if is_allowed(claim, point))
 
 
@@ -263,6 +266,20 @@ class _Drawn:
                 for end in ends:
                     share = 10 ** self.rng.uniform(-4, 0)
                     yield point | {variable: mpf(zero + (end - zero) * share)}
+
+    def between(self, exprs: Iterable[Expr]) -> Iterator[Point]:
+        """Yield points between neighbouring zeros along one variable, closest pairs first.
+
+        Between the zeros of two switches, a claim may be false in a very small range.
+        """
+        point, places = self.point(), dict[Symbol, list[float]]()
+        for expr, variable in self.along(exprs):
+            found = zeros(expr, variable, point, self._grid(variable))
+            places.setdefault(variable, []).extend(zero for zero, _ in found)
+        pairs = [(s, *ends) for s, each in places.items() for ends in pairwise(sorted(each))]
+        for symbol, low, high in sorted(pairs, key=lambda pair: pair[2] - pair[1]):
+            if high - low > _APART * abs(high):
+                yield point | {symbol: mpf(low + (high - low) * self.rng.uniform(0.2, 0.8))}
 
     def stationary(self, exprs: Iterable[Expr]) -> Iterator[Point]:
         """Yield points where an expression is stationary.
