@@ -360,7 +360,11 @@ def _worst(body: str, of: Measured, region: str, regions: Regions, sample: Sampl
             lost += 1
             continue
         with mpmath.workdps(problem.digits):
-            scales = of.scale(body, answer.numbers, answer.given)
+            try:
+                scales = of.scale(body, answer.numbers, answer.given)
+            except ArithmeticError:  # the sheet has too few digits here
+                lost += 1
+                continue
             for i, (value, number) in enumerate(zip(results[:, k], answer.numbers, strict=True)):
                 scale = scales[i] or mpf(1)
                 error = float(abs(mpf(value) - number) / scale)
