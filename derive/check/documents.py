@@ -10,13 +10,10 @@ from collections.abc import Callable, Sequence
 from functools import cache, partial
 
 import jinja2
-import numpy as np
 from markupsafe import Markup, escape
 
 from derive.check import report
-from derive.check.claim import Paper, Verdict
-from derive.check.draw import along, has_integral, is_allowed
-from derive.check.sides import Sides
+from derive.check.claim import Paper
 from derive.check.verdict import Finding
 from derive.sheet.page import templates
 
@@ -24,8 +21,6 @@ _HIDDEN = re.compile(r"\\(?:label|tag\*?)\s*\{[^{}]*\}|\\(?:nonumber|notag)(?![A
 """Parts of a display that are not part of the formula."""
 _INNER = re.compile(r"\\begin\b.*\\end\s*\{\w+\*?\}", re.DOTALL)
 """An environment inside a display."""
-_SAMPLES = 40
-"""Number of points of a curve."""
 
 
 def in_markdown(text: str) -> str:
@@ -56,12 +51,7 @@ _ESCAPES: dict[str, Callable[[str], str]] = {
 def _template(name: str) -> jinja2.Template:
     escaped = partial(_in_one_line, escaped=_ESCAPES[name])
     made = templates("derive.check", "check", finalize=escaped, keep_trailing_newline=True)
-    made.filters |= {
-        "code": _as_code,
-        "curves": _curves,
-        "typeset": _typeset,
-        "verbatim": Markup,
-    }
+    made.filters |= {"code": _as_code, "typeset": _typeset, "verbatim": Markup}
     return made.get_template(name)
 
 
@@ -92,30 +82,3 @@ def _typeset(latex: str, display: str = "block") -> Markup:
         return mathml(bare, display)
     except Exception:  # there is no converter, or it fails
         return Markup()
-
-
-def _curves(finding: Finding) -> Markup | str:
-    """Plot both sides along one variable if the claim fails and contains no integral.
-
-    The variable runs over its range, or from half to twice its value at the last point.
-    """
-    from derive.sheet.picture import Line, svg
-
-    claim, pairs = finding.claim, finding.judged.pairs
-    if finding.verdict != Verdict.FAILS or not pairs or has_integral(claim):
-        return ""
-    sides = Sides.printed(claim).in_variables
-    point = pairs[-1].point
-    held = set().union(*(side.free_symbols for side in sides)) & set(point)
-    for symbol in sorted(held, key=lambda s: (bool(s.is_positive), s.name)):
-        span = claim.meant.ranges.get(symbol)
-        near = (float(point[symbol]) / 2, float(point[symbol]) * 2)
-        ends = near if span is None or span.powers else (span.low, span.high)
-        across = np.linspace(*ends, _SAMPLES + 2)[1:-1]
-        shown = np.array([is_allowed(claim, point | {symbol: value}) for value in across])
-        curves = [along(side, symbol, point, across) for side in sides]
-        kept = [shown & np.isfinite(curve) for curve in curves]
-        if all(np.count_nonzero(each) > _SAMPLES // 2 for each in kept):
-            lines = [Line("", across[k], c[k]) for k, c in zip(kept, curves, strict=True)]
-            return Markup(svg("both sides", symbol.name, "", lines))
-    return ""

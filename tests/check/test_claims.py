@@ -231,7 +231,7 @@ def test_units_of_symbols_that_nobody_knows() -> None:
         assert units.mismatch(left, right)
 
 
-def test_the_page_shows_figures_and_formulas_but_runs_nothing(tmp_path: Path) -> None:
+def test_the_page_shows_formulas_but_runs_nothing(tmp_path: Path) -> None:
     claims = (
         '[[claims]]\nlabel = "<script>"\n'
         "latex = 'p_0 = \\frac{P}{\\pi a} \\href{javascript:x}{a} \\text{<script>}'\n"
@@ -243,7 +243,7 @@ def test_the_page_shows_figures_and_formulas_but_runs_nothing(tmp_path: Path) ->
     assert page.count("<mtext>&lt;script&gt;</mtext>") == 1
     assert MARK in page  # another run may replace it
     assert "<dt>printed</dt><dd><math" in page
-    assert "5*pi/4" in page and page.count("<polyline") == 2
+    assert "5*pi/4" in page
 
 
 # The worse of two claims of one equation counts.  (1) is from the body, (2) by definition,
