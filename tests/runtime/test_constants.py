@@ -257,6 +257,30 @@ def zones_of_a_short_fillet_meet_their_conditions() -> bool:
     return _off_conditions(flat_rounded, own, here, 0.0, 0.012435350026285619) < 1e-12
 
 
+def slip_on_the_way_is_seen() -> bool:
+    """The right edge passes the kink at 0.5.  Its advance dc allows K_T up to f K_N dc/2; K_T is
+    below that at both ends of the way, and 1.5 % above it after 0.9 of it."""
+    own, loads = {"E_star": 1.0, "R": 1.0, "b": 0.5}, (0.05, -0.02)
+    ends = [Contact(1.38, 0.735, 0.0), Contact(0.986, 0.38, 0.0)]
+    P, M = (
+        [of(*end[:2], **own) for end in ends] for of in (flat_rounded.load, flat_rounded.moment)
+    )
+
+    def share(part: float) -> float:
+        """K_T over its limit at a part of the way; the advance by differences."""
+        way = [
+            flat_rounded.contact(P[0] + k * (P[1] - P[0]), M[0] + k * (M[1] - M[0]), **own)
+            for k in (part - 1e-6, part, part + 1e-6)
+        ]
+        a, c, _ = way[1]
+        limit = F * flat_rounded.K_N(a, c, **own).right * abs(way[2].c - way[0].c) / 2e-6 / 2
+        return float(abs(full_stick.K_T(a, c, *loads).right) / limit)
+
+    assert share(0.01) < 1 and share(0.99) < 1 < share(0.9)
+    found = flat_rounded.stick_zone(*ends, *loads, f=F, **own)
+    return bool(found.regime == Regime.MIXED)
+
+
 def edges_that_hang_on_rounding_of_the_tilt_are_refused() -> bool:
     """A wedge on one flank: P = E* phi sqrt(a c), and rounding of the tilt moves an edge by 7e-6 of
     the width, EPS phi h/P."""
@@ -405,6 +429,7 @@ TABLE: dict[str, tuple[Any, Callable[[], bool]]] = {
     "slip.bounded.NEAREST": (1e-8, zones_of_a_cylinder_meet_their_conditions),
     "slip.zone.RULE_RTOL": (2e-9, zones_with_a_kink_near_the_edge_meet_their_conditions),
     "slip.bounded.MIN_GAP": (0.005, zones_of_a_short_fillet_meet_their_conditions),
+    "slip.growth.PARTS": (1, slip_on_the_way_is_seen),
     "slip.series.MAX_STEPS": (4, series_are_solved),
     "pieces.MAX_LEVEL": (0, integrals_agree_with_the_closed_form),
     "pieces.FARTHEST": (0, integrals_agree_with_the_closed_form),
