@@ -212,21 +212,24 @@ def a_rule_takes_a_root_at_the_end() -> bool:
     return bool(abs(np.sum(weight / np.sqrt(y)) / 2 - 1) < 1e-14)
 
 
-def _off_conditions(body: Any, own: Any, here: Contact, dQ: float, dsigma: float) -> float:
+def _off_conditions(
+    body: Any, own: Any, here: Contact, dQ: float, dsigma: float, there: Contact | None = None
+) -> float:
     """How far a zone of large tension is from both of its conditions (bounded.py), relative to the
     friction; the slip zones are cut at the body's kinks, and take a rule of their own."""
     quadrature = import_module("generated.runtime.slip.quadrature")
     q, weight = quadrature.double_exponential(0.01)
-    m, n, regime = body.stick_zone(here, here, dQ, dsigma, f=F, E_star=1.0, **own)
-    stuck, sense, sums = m + n, np.sign(dsigma), np.zeros(2)
-    for k, (side, start, end) in enumerate(((-1, m, here.a), (1, n, here.c))):
-        kinks = [0.0, *sorted(y for y in (1 - start, -1 - start) if 0 < y < end - start)]
-        for low, high in pairwise([*kinks, end - start]):
-            y = low + (high - low) * q
-            p = body.pressure(side * (start + y), *here[:2], E_star=1.0, **own)
-            force = -side * sense * 2 * F * p * weight * (high - low)
-            sums[k] += np.sum(force * np.sqrt((stuck + y) / y))
-            sums[1 - k] += np.sum(force * np.sqrt(y / (stuck + y)))
+    m, n, regime = body.stick_zone(here, there or here, dQ, dsigma, f=F, E_star=1.0, **own)
+    stuck, sense, sums, b = m + n, np.sign(dsigma), np.zeros(2), own.get("b", 0.0)
+    for contact in (here, there or here):
+        for k, (side, start, end) in enumerate(((-1, m, contact.a), (1, n, contact.c))):
+            kinks = [0.0, *sorted(y for y in (b - start, -b - start) if 0 < y < end - start)]
+            for low, high in pairwise([*kinks, end - start]):
+                y = low + (high - low) * q
+                p = body.pressure(side * (start + y), *contact[:2], E_star=1.0, **own)
+                force = -side * sense * F * p * weight * (high - low)
+                sums[k] += np.sum(force * np.sqrt((stuck + y) / y))
+                sums[1 - k] += np.sum(force * np.sqrt(y / (stuck + y)))
     by_tension = math.pi * stuck * dsigma / 8
     off = sums - [dQ + by_tension, dQ - by_tension]
     assert regime == Regime.LARGE
@@ -248,6 +251,13 @@ def zones_with_a_kink_near_the_edge_meet_their_conditions() -> bool:
     here = Contact(1.004159798891837, 1.6519654071285617, 0.0)
     loads = 0.04000283951655925, 0.30121200179787033
     return _off_conditions(flat_rounded, {"R": 1.0, "b": 1.0}, here, *loads) < 1e-14
+
+
+def zones_between_two_contacts_meet_their_conditions() -> bool:
+    """The same punch, shorter, as the load moves; kinks and edges are far from each other."""
+    ends = Contact(1.317, 0.884, 0.0), Contact(1.352, 0.868, 0.0)
+    own = {"R": 1.0, "b": 0.5}
+    return _off_conditions(flat_rounded, own, ends[0], 0.282, 0.656, ends[1]) < 1e-13
 
 
 def zones_of_a_short_fillet_meet_their_conditions() -> bool:
@@ -427,6 +437,7 @@ TABLE: dict[str, tuple[Any, Callable[[], bool]]] = {
     "slip.shear.ZONE_RTOL": (1e-8, a_fall_that_slips_farther_is_not_known),
     "slip.bounded.NEWTON_RTOL": (1e-3, zones_of_a_cylinder_meet_their_conditions),
     "slip.bounded.NEAREST": (1e-8, zones_of_a_cylinder_meet_their_conditions),
+    "slip.bounded.ROUGH_RTOL": (1e-6, zones_between_two_contacts_meet_their_conditions),
     "slip.zone.RULE_RTOL": (2e-9, zones_with_a_kink_near_the_edge_meet_their_conditions),
     "slip.bounded.MIN_GAP": (0.005, zones_of_a_short_fillet_meet_their_conditions),
     "slip.growth.PARTS": (1, slip_on_the_way_is_seen),
