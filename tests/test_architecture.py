@@ -165,7 +165,7 @@ USERS = {
     "derive.plot": {"derive.plot"},
     "click": {*FRONT},
     "rich": {*FRONT},
-    "matplotlib": {"derive.plot"},
+    "matplotlib": {"derive.plot", "derive.sheet.picture"},
     "ipywidgets": {"derive.plot"},
     "numba": {"generated.runtime"},
     "generated": {"derive.edge", "generated"},

@@ -13,7 +13,6 @@ from derive.command.terminal import folded
 from derive.edge.find import INWARD, Findings, FittedEdge
 from derive.edge.table import Step
 from derive.sheet.page import templates
-from derive.sheet.picture import Line, svg
 
 HEAD = ("load step", "edge", "x [mm]", "K_N [MPa/sqrt(mm)]", "L_N [MPa/mm**(3/2)]", "nodes")
 ZONES = (
@@ -143,26 +142,32 @@ def as_page(findings: Findings, steps: Sequence[Step], title: str) -> str:
         zone_head=ZONES,
         zones=zones,
         legend=["± is one standard deviation", *([SERIES, REACH] if zones else [])],
-        pictures=[(e, Markup(_picture(e, steps[-1]))) for e in last],
+        pictures=[(e, _picture(e, steps[-1])) for e in last],
         notes=findings.notes,
     )
 
 
-def _picture(e: FittedEdge, step: Step) -> str:
+def _picture(e: FittedEdge, step: Step) -> Markup:
     """Plot nodal pressures, the fit and K_N sqrt(s) against the distance s on log axes."""
+    from derive.sheet.picture import Line, curves
+
     s, p = INWARD[e.side] * (step.x - e.pressure.edge), step.p
     shown = (s > 0) & (p > 0) & (s <= 4 * e.pressure.stretch)
     s, p = s[shown], p[shown]
     if len(s) < 2:
-        return ""
+        return Markup()
     fine = np.geomspace(s.min() / 2, e.pressure.stretch, 80)
     first = e.pressure.K_N * np.sqrt(fine)
     second = first + e.pressure.L_N * fine**1.5
     above = second > 0
-    curves = [("first", fine, first), ("both", fine[above], second[above]), ("nodes", s, p)]
+    drawn = [
+        ("√s term", fine, first, "--"),
+        ("both terms", fine[above], second[above], "-"),
+        ("nodes", s, p, "k."),
+    ]
     if e.zone and fine[0] < e.zone.d < s.max():
         heights = np.array([min(p.min(), first.min()), max(p.max(), first.max())])
-        curves.append(("end of the slip zone", np.full(2, e.zone.d), heights))
-    lines = [Line(name, 1e3 * x, 1e-6 * y, name == "nodes") for name, x, y in curves]
+        drawn.append(("end of the slip zone", np.full(2, e.zone.d), heights, "C3-"))
+    lines = [Line(name, 1e3 * x, 1e-6 * y, look) for name, x, y, look in drawn]
     labels = "pressure at an edge", "distance from the edge [mm]", "pressure [MPa]"
-    return svg(*labels, lines, is_log=True)
+    return curves(*labels, lines, is_log=True)

@@ -18,7 +18,7 @@ from derive.codegen.trial import imported
 from derive.proof.points import holds
 from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
-from derive.sheet.picture import Line, sketch, svg
+from derive.sheet.picture import Line, curves, sketch
 from derive.symbols import E_star, a, c, x
 
 SAMPLES = 241
@@ -45,7 +45,6 @@ def pictures(sheet: FormulaSheet, body: BuiltBody) -> dict[str, Any]:
     """What the template figures.html shows of one body.
 
     profile, pressure  the pictures
-    labels             the labels of the pressure curves
     drawn_at           the values of the parameters at which the pictures are drawn
     has_corner         whether the body has a corner, where the pressure is infinite
     """
@@ -56,9 +55,8 @@ def pictures(sheet: FormulaSheet, body: BuiltBody) -> dict[str, Any]:
     reach = 1.1 * max(max(line.x) for line in lines)
     top = 4 * max(float(np.median(line.y)) for line in lines)
     return {
-        "profile": Markup(svg("profile g(x)", "x/a₀", "g/a₀", [_profile(sheet, reach)])),
-        "pressure": Markup(svg("contact pressure p(x)", "x/a₀", "2 a₀ p/P", lines, top)),
-        "labels": [line.label for line in lines],
+        "profile": curves("profile g(x)", "x/a₀", "g/a₀", [_profile(sheet, reach)]),
+        "pressure": curves("contact pressure p(x)", "x/a₀", "2 a₀ p/P", lines, top),
         "drawn_at": ", ".join(f"{name} = {value:g}" for name, value in law.items()),
         "has_corner": bool(corners),
     }
@@ -66,7 +64,7 @@ def pictures(sheet: FormulaSheet, body: BuiltBody) -> dict[str, Any]:
 
 def profile(sheet: FormulaSheet) -> Markup:
     """A sketch of the profile alone, for an index."""
-    return Markup(sketch(f"profile of {sheet.geometry.name}", _profile(sheet, SKETCHED)))
+    return sketch(f"profile of {sheet.geometry.name}", _profile(sheet, SKETCHED))
 
 
 def drawn_at(sheet: FormulaSheet) -> tuple[float, dict[str, float]]:

@@ -1,139 +1,89 @@
-"""Small pictures of curves as SVG, drawn in the colours of the page."""
+"""Small pictures of curves as elements of a page, drawn by matplotlib.
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from html import escape
-from itertools import pairwise
-from math import floor, log10
+The page needs nothing else to show them.  Their grey axes are legible on light and on dark pages.
+"""
 
+import io
+import math
+from base64 import b64encode
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.util import find_spec
+from typing import Any
+
+from derive.command.errors import MissingLibrary
+
+if find_spec("matplotlib") is None:
+    raise MissingLibrary("matplotlib", "a page with pictures", "handbook")
+
+import matplotlib as mpl
 import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-WIDTH, HEIGHT = 560, 250
-LEFT, RIGHT, TOP, BOTTOM = 62, 14, 14, 40
-TICKS = 5
-"""Approximate number of ticks along an axis."""
+_GREY = "#7f7f7f"
+_STYLE: Any = {
+    **{"svg.fonttype": "none", "svg.hashsalt": "picture", "font.size": 9, "text.color": _GREY},
+    **dict.fromkeys(("axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color"), _GREY),
+    **{"axes.grid": True, "grid.color": _GREY, "grid.alpha": 0.3},
+}
 
 
 @dataclass(frozen=True)
 class Line:
-    """One curve: its label in the legend, and its points, joined or drawn as dots."""
+    """One curve: its label in the legend, its points, and its look as a format of matplotlib."""
 
     label: str
     x: Sequence[float] | np.ndarray
     y: Sequence[float] | np.ndarray
-    has_dots: bool = False
+    look: str = "-"
 
 
-def svg(
+def curves(
     title: str,
     along: str,
     upward: str,
     lines: Sequence[Line],
-    top: float = 0.0,
+    top: float = math.inf,
     is_log: bool = False,
-) -> str:
-    """Curves in one pair of axes; a curve is cut off where it rises above `top`, if given.
+) -> Markup:
+    """Curves in one pair of axes, with a legend if there are several, cut off at the height `top`.
 
-    is_log: whether both axes are logarithmic; all numbers are then positive
+    is_log: whether both axes are logarithmic
     """
-    if is_log:
-        lines = [replace(line, x=np.log10(line.x), y=np.log10(line.y)) for line in lines]
-    xs = [x for line in lines for x in line.x]
-    ys = [min(y, top) if top else y for line in lines for y in line.y]
-    low_x, high_x = min(xs), max(xs)
-    low, high = min(ys) if is_log else min(0.0, *ys), max(ys)
-    across, up = (WIDTH - LEFT - RIGHT) / (high_x - low_x), (HEIGHT - TOP - BOTTOM) / (high - low)
-
-    def pixel(x: float, y: float) -> tuple[float, float]:
-        return LEFT + (x - low_x) * across, HEIGHT - BOTTOM - (y - low) * up
-
-    places, base = (decades if is_log else ticks), HEIGHT - BOTTOM
-    parts = [
-        f'<svg class="curves" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" '
-        f'aria-label="{escape(title)}">',
-        f"<title>{escape(title)}</title>",
-    ]
-    for x, name in places(low_x, high_x):
-        at, _ = pixel(x, low)
-        parts.append(f'<line class="grid" x1="{at:.1f}" x2="{at:.1f}" y1="{TOP}" y2="{base}"/>')
-        parts.append(f'<text x="{at:.1f}" y="{base + 16}" text-anchor="middle">{name}</text>')
-    for y, name in places(low, high):
-        _, at = pixel(low_x, y)
-        parts.append(
-            f'<line class="grid" y1="{at:.1f}" y2="{at:.1f}" x1="{LEFT}" x2="{WIDTH - RIGHT}"/>'
-        )
-        parts.append(f'<text x="{LEFT - 6}" y="{at + 4:.1f}" text-anchor="end">{name}</text>')
-    for number, line in enumerate(lines):
-        look = f'class="curve curve-{number}"'
-        for run in _below(high, line):
-            points = [pixel(x, y) for x, y in run]
-            if line.has_dots:
-                parts += [f'<circle {look} cx="{x:.1f}" cy="{y:.1f}" r="3"/>' for x, y in points]
-            else:
-                drawn = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-                parts.append(f'<polyline {look} points="{drawn}"/>')
-    middle = (LEFT + WIDTH - RIGHT) / 2
-    parts.append(f'<text x="{middle}" y="{HEIGHT - 6}" text-anchor="middle">{escape(along)}</text>')
-    parts.append(
-        f'<text transform="translate(14 {(TOP + base) / 2}) rotate(-90)" '
-        f'text-anchor="middle">{escape(upward)}</text></svg>'
-    )
-    return "".join(parts)
+    with mpl.rc_context(_STYLE):
+        figure = Figure((7.2, 3.2), layout="constrained")
+        axes = figure.subplots()
+        _draw(axes, lines)
+        axes.set(xlabel=along, ylabel=upward)
+        if is_log:
+            axes.set(xscale="log", yscale="log")
+        else:
+            axes.set_ylim(top=min(top, 1.05 * max(np.max(line.y) for line in lines)))
+        if len(lines) > 1:
+            axes.legend(frameon=False)
+        return _shown(figure, title)
 
 
-def sketch(title: str, line: Line) -> str:
+def sketch(title: str, line: Line) -> Markup:
     """One curve without axes, in a small box."""
-    low, high = min(line.y), max(line.y)
-    across, up = 160 / (line.x[-1] - line.x[0]), 56 / (high - low)
-    points = " ".join(
-        f"{4 + (x - line.x[0]) * across:.1f},{60 - (y - low) * up:.1f}"
-        for x, y in zip(line.x, line.y, strict=True)
-    )
-    return (
-        f'<svg class="sketch" viewBox="0 0 168 64" role="img" aria-label="{escape(title)}">'
-        f'<title>{escape(title)}</title><polyline class="curve curve-0" points="{points}"/></svg>'
-    )
+    with mpl.rc_context(_STYLE):
+        figure = Figure((1.75, 0.67), layout="constrained")
+        axes = figure.subplots()
+        _draw(axes, [line])
+        axes.axis("off")
+        return _shown(figure, title)
 
 
-def _below(high: float, line: Line) -> Iterator[list[tuple[float, float]]]:
-    """The parts of a curve that lie below a height, including the points where they cross it.
-
-    >>> list(_below(1.0, Line("", [0.0, 2.0, 4.0], [0.0, 2.0, 0.0])))
-    [[(0.0, 0.0), (1.0, 1.0)], [(3.0, 1.0), (4.0, 0.0)]]
-    """
-    run: list[tuple[float, float]] = []
-    points = list(zip(line.x, line.y, strict=True))
-    for (x, y), (x_next, y_next) in pairwise([points[0], *points]):
-        if (y > high) != (y_next > high):
-            run.append((x + (x_next - x) * (high - y) / (y_next - y), high))
-        if y_next <= high:
-            run.append((x_next, y_next))
-        elif run:
-            yield run
-            run = []
-    if run:
-        yield run
+def _draw(axes: Axes, lines: Sequence[Line]) -> None:
+    for line in lines:
+        axes.plot(line.x, line.y, line.look, label=line.label)
 
 
-def ticks(low: float, high: float) -> list[tuple[float, str]]:
-    """About TICKS round numbers between two bounds, each with its label.
-
-    >>> ticks(-1.2, 3.1)
-    [(-1.0, '-1'), (0.0, '0'), (1.0, '1'), (2.0, '2'), (3.0, '3')]
-    """
-    rough = (high - low) / TICKS
-    power = 10.0 ** floor(log10(rough))
-    step = power * next(n for n in (1, 2, 5, 10) if n * power >= rough * (1 - 1e-9))
-    first, last = round(low / step + 0.499999), round(high / step - 0.499999)
-    return [(round(n * step, 12), f"{n * step:.4g}") for n in range(first, last + 1)]
-
-
-def decades(low: float, high: float) -> list[tuple[float, str]]:
-    """The logarithms of 1, 2 and 5 times each power of ten between two logarithms, with labels.
-
-    >>> decades(-0.5, 0.8)
-    [(-0.3010299956639812, '0.5'), (0.0, '1'), (0.3010299956639812, '2'), (0.6989700043360189, '5')]
-    """
-    powers = range(floor(low), floor(high) + 1)
-    numbers = [step * 10.0**power for power in powers for step in (1, 2, 5)]
-    return [(log10(n), f"{n:g}") for n in numbers if low <= log10(n) <= high]
+def _shown(figure: Figure, title: str) -> Markup:
+    """The picture as an element of a page, the same in every run."""
+    written = io.BytesIO()
+    figure.savefig(written, format="svg", transparent=True, metadata={"Date": None})
+    source = f"data:image/svg+xml;base64,{b64encode(written.getvalue()).decode()}"
+    return Markup('<img alt="{}" src="{}">').format(title, source)

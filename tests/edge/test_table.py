@@ -1,5 +1,6 @@
 """Tables as programs export them, and many that are wrong: one message each."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -163,7 +164,8 @@ def test_the_command_by_hand(path: Path, tmp_path: Path) -> None:
     for zone in zones(found):
         assert_allclose(zone.d, 1e-3 * (1 - np.sqrt(0.7)), rtol=0.01)
     shown = page.read_text()
-    assert "<svg" in shown and "^" not in shown and "sqrt" not in shown and "**" not in shown
+    shown, count = re.subn(r'"data:image/svg[^"]*"', "", shown)
+    assert count == 2 and "^" not in shown and "sqrt" not in shown and "**" not in shown
     assert "L<sub>N</sub> [MPa/mm<sup>3/2</sup>]" in shown and "K<sub>N</sub> √s" in shown
     assert "slip zone [µm]" in shown
     assert table.read_text().startswith("load_step,side,edge")

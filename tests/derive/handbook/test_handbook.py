@@ -2,6 +2,7 @@
 
 import re
 import shutil
+from base64 import b64decode
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -11,13 +12,12 @@ import pytest
 
 from derive import Geometry, derive_sheet, parameter, x
 from derive.command.folder import replace_folder, with_manifest
-from derive.handbook.curves import pictures
+from derive.handbook.curves import CONTACTS, pictures
 from derive.handbook.page import card, index_of, page
 from derive.pipeline import GENERATED
 from derive.sheet.built import BuiltBody
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.mathml import mathml
-from derive.sheet.picture import TOP
 from tests.codegen.made import body_of
 from tests.commands import done
 from tests.derive.bodies import assumed, of_library
@@ -27,7 +27,9 @@ pytestmark = pytest.mark.slow
 NAMES = ("hertz", "flat_rounded", "hyperbola")
 """Closed both ways; with kinks; integrated."""
 
-OUTSIDE = re.compile(r"""(?:src|href)=["'](?!#|[\w-]+\.html)|url\(|@import|<script |<iframe""")
+OUTSIDE = re.compile(
+    r"""(?:src|href)=["'](?!#|data:|[\w-]+\.html)|url\(|@import|<script |<iframe"""
+)
 
 
 @cache
@@ -51,6 +53,11 @@ def ids(text: str) -> list[str]:
     return re.findall(r'id="([^"]*)"', text)
 
 
+def drawn(text: str) -> list[str]:
+    """The pictures of a page, as SVG."""
+    return [b64decode(each).decode() for each in re.findall(r'svg\+xml;base64,([^"]+)"', text)]
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_of_the_sheet_is_missing(pages: Path, name: str) -> None:
     text, (sheet, body) = (pages / f"{name}.html").read_text(), made(name)
@@ -60,7 +67,8 @@ def test_nothing_of_the_sheet_is_missing(pages: Path, name: str) -> None:
     assert text.count("assumed by a test") == len(sheet)
     for function in re.findall(r"^def (\w+)", body.text, re.M):
         assert f'<span class="nf">{function}</span>' in text
-    assert text.count("<polyline") == 1 + len(pictures(sheet, body)["labels"])
+    _, pressure = drawn(text)
+    assert all(f">{label}</text>" in pressure for _, _, label in CONTACTS)
 
 
 def test_words_of_a_user_are_escaped() -> None:
@@ -75,11 +83,13 @@ def test_words_of_a_user_are_escaped() -> None:
 @pytest.mark.parametrize(("name", "corners"), [("wedge_parabola", 1), ("flat_sloped", 2)])
 def test_a_pressure_rises_out_of_the_picture_at_a_corner(name: str, corners: int) -> None:
     """Each of the three curves is cut into one part more than it has corners."""
-    drawn = pictures(*made(name))
-    parts = re.findall(r'<polyline class="curve curve-\d" points="([^"]+)"', drawn["pressure"])
-    assert drawn["has_corner"] and len(parts) == 3 * (1 + corners)
-    ends = [point.split(",")[1] for part in parts for point in (part.split()[0], part.split()[-1])]
-    assert ends.count(f"{TOP:.1f}") == 2 * 3 * corners
+    found = pictures(*made(name))
+    (picture,) = drawn(found["pressure"])
+    curves = [
+        path for path in re.findall(r'<path d="([^"]+)" clip-path', picture) if "z" not in path
+    ]
+    parts = sorted(len(path.split("M ")) - 1 for path in curves)
+    assert found["has_corner"] and parts[-3:] == [1 + corners] * 3
 
 
 @pytest.mark.parametrize("latex", ["a & b", r"\unknown{x}", "a $ b"])
@@ -143,7 +153,7 @@ def test_a_browser_draws_it(browser: Any, pages: Path, name: str, width: int) ->
     assert not browser.get_log("browser")
     asked = [log["message"] for log in browser.get_log("performance")]
     urls = re.findall(r'"requestWillBeSent.*?"url":"(.*?)"', " ".join(asked))
-    assert all(url.startswith("file:") for url in urls)
+    assert all(url.startswith(("file:", "data:")) for url in urls)
 
 
 @pytest.mark.parametrize("name", [*NAMES, "index"])
