@@ -251,20 +251,21 @@ def _piece(edge: float, inner: float, breaks: Any, side: float) -> Any:
 
 
 @kernel
-def _is_last(
-    edge: float, by: float, rounding: float, reach: float, breaks: Any, side: float
-) -> bool:
-    """Whether the next step of an edge is nothing but rounding.
+def _last(edge: float, by: float, rounding: float, reach: float, breaks: Any, side: float) -> float:
+    """An edge after the last step, which is nothing but rounding; NaN if there are more to come.
 
-    It is the square of this step, relative to the distance over which K_N changes: to the closest
-    break on either side, where the curvature may be infinite, but at most `reach`.
+    The next step is the square of this one, relative to the distance over which K_N changes: to the
+    closest break on either side, where the curvature may be infinite, but at most `reach`.  An edge
+    at a break stays there, because K_N may jump.
 
     rounding: how far rounding of the load moves this edge.
     """
     room = reach
     for at in breaks:
         room = min(room, abs(side * at - edge))
-    return abs(by) <= math.sqrt(EPS) * room + rounding
+    if not abs(by) <= math.sqrt(EPS) * room + rounding:
+        return math.nan
+    return edge + by if abs(by) < room else edge
 
 
 @kernel
@@ -290,10 +291,10 @@ def _found(state: Any, slope: Any, own: Any, breaks: Any, target: Any) -> Any:
         if error < math.sqrt(EPS) + rounding:
             load, _, _, left, right = now
             give = rounding * load / math.sqrt(a + c)
-            if _is_last(a, by_a, give / left, reach_a, breaks, -1.0) and _is_last(
-                c, by_c, give / right, reach_c, breaks, 1.0
-            ):
-                return a + by_a, c + by_c
+            last_a = _last(a, by_a, give / left, reach_a, breaks, -1.0)
+            last_c = _last(c, by_c, give / right, reach_c, breaks, 1.0)
+            if last_a + last_c < math.inf:
+                return last_a, last_c
         outward, on_right = first < 0, (first < 0) == (second < 0)
         if on_right and outward:
             low_c = c

@@ -148,3 +148,23 @@ def test_the_pressure_of_a_circular_arc_beside_its_lowest_point(place: float) ->
         wanted = float(mpmath.quad(integrand, below) + mpmath.quad(integrand, above[::-1]))
     found = circular_arc.pressure(place, left, right, E_star=math.pi, R=3.0)
     assert_allclose(found, wanted, rtol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("body", "own", "corner"),
+    [(wedge_parabola, {"phi": 0.01, "R": 0.3}, 0.0), (flat_sloped, {"phi": 0.1, "b": 0.02}, 0.02)],
+    ids=_id,
+)
+def test_a_contact_that_ends_at_a_corner_is_found(body: Any, own: Any, corner: float) -> None:
+    """K_N jumps at a corner: the edge stays there, and is not moved beyond it by rounding."""
+    c = np.geomspace(1e-4, 100.0, 500)
+    c = c[c > corner]
+    a = np.full_like(c, corner)
+    P, alpha = body.load(a, c, E_star=E, **own), body.tilt(a, c, **own)
+    M = body.moment(a, c, E_star=E, **own)
+    for found in (
+        body.contact(P, M, E_star=E, **own),
+        body.contact_at_tilt(P, alpha, E_star=E, **own),
+    ):
+        assert np.all(np.abs(found.a - a) <= 2e-14 * (a + c))
+        assert np.all(np.abs(found.c - c) <= 2e-14 * (a + c))
