@@ -22,8 +22,12 @@ from derive.sheet.picture import Line, curves, sketch
 from derive.symbols import E_star, a, c, x
 
 SAMPLES = 241
-CONTACTS = ((1.0, 0.0, "P"), (0.5, 0.0, "P/2"), (1.0, 0.25, "P, and a moment M = P a₀/4"))
-"""The contacts that are drawn: load over P, moment over load times half-width, and label."""
+CONTACTS = (
+    (1.0, 0.0, "P", "-"),
+    (0.5, 0.0, "P/2", "--"),
+    (1.0, 0.25, "P, and a moment M = P a₀/4", ":"),
+)
+"""The contacts that are drawn: load over P, moment over load times half-width, label and look."""
 
 OWN = {
     "power": {"k": 1.5},
@@ -103,7 +107,7 @@ def _pressures(
     module: Any, half: float, law: dict[str, float], corners: list[float]
 ) -> Iterator[Line]:
     load = float(module.load(half, half, **law))
-    for part, turn, label in CONTACTS:
+    for part, turn, label, look in CONTACTS:
         state = module.contact(part * load, turn * part * load * half, **law)
         if not np.isfinite(state.a):
             continue
@@ -119,4 +123,4 @@ def _pressures(
         p[np.isin(positions, inside)] = np.inf
         known = ~np.isnan(p)
         x_drawn, p_drawn = positions[known] / half, 2 * half * p[known] / load
-        yield Line(label, x_drawn.tolist(), p_drawn.tolist())
+        yield Line(label, x_drawn, p_drawn, look)

@@ -68,7 +68,7 @@ def test_nothing_of_the_sheet_is_missing(pages: Path, name: str) -> None:
     for function in re.findall(r"^def (\w+)", body.text, re.M):
         assert f'<span class="nf">{function}</span>' in text
     _, pressure = drawn(text)
-    assert all(f">{label}</text>" in pressure for _, _, label in CONTACTS)
+    assert all(f">{label}</text>" in pressure for _, _, label, _ in CONTACTS)
 
 
 def test_words_of_a_user_are_escaped() -> None:
