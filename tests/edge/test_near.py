@@ -1,6 +1,7 @@
 """Next to an edge: against the exact fields of a cylinder, in the limit of small slip zones."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -80,3 +81,9 @@ def test_where_an_edge_moves_shear_is_known_where_it_slips_alone() -> None:
     assert_allclose(found.q[0], 0.5 * found.p[0], rtol=1e-15)
     assert np.isnan(found.q[1]) and np.isfinite(found.dq[1])
     assert np.isnan(slip_range(0.02, **MOVING, E_star=1.0))
+
+
+@pytest.mark.parametrize("of", [tractions, partial(slip_range, E_star=1.0)])
+def test_one_of_the_second_coefficients_alone_is_refused(of: Callable[..., Any]) -> None:
+    with pytest.raises(ValueError, match="give both, or neither for order 1"):
+        of(0.1, 2.0, 0.2, f=0.5, L_T=0.3)

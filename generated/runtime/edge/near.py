@@ -90,7 +90,7 @@ def slip_zone(
     f : array_like
         Coefficient of friction [-].
     L_N : array_like, optional
-        Coefficient of s**(3/2) in the pressure [Pa/m**(3/2)].
+        Coefficient of s**(3/2) in the pressure [Pa/m**(3/2)].  Give both L_N and L_T, or neither.
     L_T : array_like, optional
         Coefficient of s**(1/2) in the change in shear [Pa/sqrt(m)].
     da : array_like, optional
@@ -113,7 +113,7 @@ def slip_zone(
         If an argument is not a real number or an array of real numbers, or the order is not a whole
         number.
     ValueError
-        If the coefficients do not allow the order, or the shapes do not broadcast.
+        If only one of L_N and L_T is given, the order needs both, or the shapes do not broadcast.
 
     Examples
     --------
@@ -124,7 +124,8 @@ def slip_zone(
     >>> f"{d:.4g} m, to {error:.1g}"
     '0.0002317 m, to 3e-05'
     """
-    most = 1 if L_N is None or L_T is None else 2
+    given = _coefficients(K_N, L_N, K_T, L_T, unknown=np.nan) | {"da": da}
+    most = 1 if L_N is None else 2
     order = most if order is None else order
     demand_order(order)
     if order > most:
@@ -135,7 +136,6 @@ def slip_zone(
         first = second._replace(L_N=0.0, L_T=0.0, h=np.inf).zone()
         return second.zone() if order == 2 else first, np.abs(second.zone() - first)
 
-    given = _coefficients(K_N, L_N, K_T, L_T, unknown=np.nan) | {"da": da}
     return evaluated(zones, given, {"f": f} if h is None else {"f": f, "h": h}, SlipZone)
 
 
@@ -307,8 +307,10 @@ def slip_range(
 
 
 def _coefficients(K_N: Any, L_N: Any, K_T: Any, L_T: Any, unknown: float = 0.0) -> dict[str, Any]:
-    """The coefficients in the order of HalfCycle; L_N and L_T are unknown unless both are given."""
-    if L_N is None or L_T is None:
+    """The coefficients in the order of HalfCycle; L_N and L_T are unknown unless given."""
+    if (L_N is None) != (L_T is None):
+        raise ValueError("L_N and L_T have the same order: give both, or neither for order 1")
+    if L_N is None:
         L_N = L_T = unknown
     return {"K_N": K_N, "L_N": L_N, "K_T": K_T, "L_T": L_T}
 
