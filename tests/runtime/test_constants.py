@@ -90,11 +90,9 @@ def a_long_slip_zone_gives_a_warning() -> bool:
 
 
 def what_is_missed_is_told() -> bool:
-    rig = import_module("generated.runtime.edge.rig")
-    one = edge.Edge(1.0, 1.0)
-    other = one._replace(K_N=1 + 5e-8)
-    _, missed = rig._compared({"left": one}, hertz.Edges(other, other), 1.0)
-    return len(missed) == 1
+    """K_N = 1 makes this cylinder's contact 4 wide, and L_N = -K_N/(2 h) = -1/8."""
+    one = edge.Edge(1.0, 0.1, L_N=-0.125 * (1 + 5e-8))
+    return len(edge.match(one, hertz, **CYLINDER).missed) == 1
 
 
 # ---------------------------------------------------------------- contacts

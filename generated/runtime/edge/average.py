@@ -38,37 +38,40 @@ def averaged(
     x: Any,
     s: Any,
     y: Any,
-    sd: Any,
+    rate: Any,
+    mesh: Any,
     half: int,
-    columns: Any,
+    powers: Any,
     spread: float,
     read: Callable[[Any], Any],
 ) -> Any:
-    """A record of the average of all fits of columns @ b to y, or of the reason why there is none.
+    """A record of the average of all fits to y, or of the reason why there is none.
 
     x        nodes of the contact
-    s, y     distances of its inner nodes from the edge, and y there
-    sd       standard deviation of y
+    s, y     distances of its inner nodes from the edge, and y = sum b_j (s/s[-1])**powers[j] there
+    rate     derivative of y with respect to the traction
+    mesh     standard deviation of the traction due to the mesh
     half     number of nodes that belong to this edge
-    columns  columns of the linear model
     spread   standard deviation of b_0, which is zero in the mean
     read     coefficients of the edge as an analytic function of b; NaN if there are none
     """
-    weighted = np.vstack([np.eye(1, columns.shape[1]) / spread, (columns / sd[:, None])[:half]])
+    sd = rate * np.hypot(_scatter(s, y, rate), mesh)
+    columns = (s / s[-1])[:, None] ** powers / sd[:, None]
+    weighted = np.vstack([np.eye(1, len(powers)) / spread, columns[:half]])
     target = np.append(0.0, (y / sd)[:half])
     counts = np.unique(np.geomspace(3, half, 40).astype(int))
     used = np.arange(half + 1) <= counts[:, None]
-    first = np.tri(columns.shape[1])[1:, None, None]  # from two columns to all
+    first = np.tri(len(powers))[1:, None, None]  # from two columns to all
     with np.errstate(all="ignore"):
         part = weighted * used[..., None] * first
         inverse = np.linalg.pinv(part)
         b = inverse @ target
         misfit = np.sum((used * target - (part @ b[..., None])[..., 0]) ** 2, axis=-1)
         # a step in the complex plane gives derivatives that are exact to rounding
-        steps = 1e-30j * np.eye(columns.shape[1])
+        steps = 1e-30j * np.eye(len(powers))
         rates = np.stack([read((b + one).T).T.imag / 1e-30 for one in steps], axis=-1)
         values, variance = read(b.T).T, np.sum((rates @ inverse) ** 2, axis=-1)
-        terms = np.arange(2, columns.shape[1])[:, None]
+        terms = np.arange(2, len(powers))[:, None]
         excess = misfit[:-1] / (counts + 1 - terms)
         # the fit with one coefficient more, and the change due to it
         variance = variance[1:] * np.maximum(excess, 1.0)[..., None] + np.diff(values, axis=0) ** 2
@@ -82,21 +85,19 @@ def averaged(
             "or slip lies next to the edge, or the contact is complete",
         )
     best = np.unravel_index(np.argmin(cost), cost.shape)
-    values, variance, weights = (
-        values[1:][exists],
-        variance[exists],
-        np.exp(cost[best] - cost[exists]),
-    )
+    weights = np.exp(cost[best] - cost[exists])
+    values, variance = values[1:][exists], variance[exists]
     mean = np.average(values, axis=0, weights=weights)
     errors = np.sqrt(np.average(variance + (values - mean) ** 2, axis=0, weights=weights))
     count, fitted, off = int(counts[best[1]]), int(best[0]) + 2, math.sqrt(excess[best])
-    K, name = abs(mean[-2]), kind._fields[len(mean) - 2]
-    return kind(
-        *(*mean.tolist(), *errors.tolist(), count, float(s[count - 1]), fitted - 1, off),
+    stretch, degree = float(s[count - 1]), int(powers[fitted - 1])
+    why = (
         f"of all ranges of nodes and numbers of coefficients, {count} of {half} nodes and {fitted} "
-        f"coefficients fit best, with a misfit of {off:.2g} times the scatter",
-        _warning(x, errors[-2] / K if K else math.inf, name),
+        f"coefficients fit best, with a misfit of {off:.2g} times the scatter"
     )
+    K, name = abs(mean[-2]), kind._fields[len(mean) - 2]
+    warning = _warning(x, errors[-2] / K if K else math.inf, name)
+    return kind(*mean.tolist(), *errors.tolist(), count, stretch, degree, off, why, warning)
 
 
 def _warning(x: Any, part: float, name: str) -> str:
@@ -116,7 +117,7 @@ def _warning(x: Any, part: float, name: str) -> str:
     return "; ".join(reasons)
 
 
-def scatter(s: Any, y: Any, rate: Any) -> float:
+def _scatter(s: Any, y: Any, rate: Any) -> float:
     """Standard deviation of the traction, from cubics fitted to six nodes each.
 
     At most two thirds of these ranges are assumed to meet a kink.

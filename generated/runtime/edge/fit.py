@@ -21,7 +21,7 @@ from numpy.polynomial import polynomial
 
 from ..arrays import number, real
 from ..types import Edges, Values
-from .average import averaged, scatter
+from .average import averaged
 
 EDGE_SPREAD = 0.35
 """Standard deviation of the edge of a mesh from that of the contact, in elements."""
@@ -144,15 +144,15 @@ def fit_pressure(x: Values, p: Values) -> PressureFit:
     middle = places[first] - inward * element / 2
     # the outermost nodes belong to elements that are only partly in contact
     s, y = inward * (places[inner] - middle), values[inner]
-    mesh = PRESSURE_MESH_ERROR * y * (element / s) ** 2.5
     found = averaged(
         PressureFit,
         places[contact],
         s,
         y**2,
-        sd=2 * y * np.hypot(scatter(s, y**2, 2 * y), mesh),
+        rate=2 * y,
+        mesh=PRESSURE_MESH_ERROR * y * (element / s) ** 2.5,
         half=max(int(np.argmax(y)) + 1, len(y) // 2),
-        columns=np.vander(s / s[-1], 6, increasing=True),
+        powers=np.arange(6),
         spread=EDGE_SPREAD * element * y[0] ** 2 / s[0],
         read=lambda b: _at_root(b, s[-1], 1.5 * element),
     )
@@ -212,16 +212,16 @@ def fit_stuck_shear(x: Values, dq: Values, edge: float, edge_error: float = 0.0)
     width = s[-1] + element  # the other edge lies about there, if the table reaches it
     y = values * np.sqrt(s * (1 - s / width))
     level = np.median(np.abs(y[: len(s) // 2]))
-    mesh = SHEAR_MESH_ERROR * level * (element / s) ** 2.5
     found = averaged(
         ShearFit,
         places[inside],
         s,
         y,
-        sd=np.hypot(scatter(s, y, np.ones(len(s))), mesh),
+        rate=np.ones(len(s)),
+        mesh=SHEAR_MESH_ERROR * level * (element / s) ** 2.5,
         half=len(s) // 2,
-        columns=np.column_stack([element / s / 2, np.vander(s / s[-1], 4, increasing=True)]),
-        spread=level * math.hypot(EDGE_SPREAD, edge_error / element),
+        powers=np.arange(-1, 4),
+        spread=level * math.hypot(EDGE_SPREAD * element, edge_error) / (2 * s[-1]),
         read=lambda b: np.stack([b[1], b[2] / s[-1]]),
     )
     # a mesh bonded over another width carries the same load with another K_T
@@ -229,7 +229,6 @@ def fit_stuck_shear(x: Values, dq: Values, edge: float, edge_error: float = 0.0)
     return found._replace(
         L_T=float(found.L_T + found.K_T / (2 * width)),
         K_T_error=math.hypot(found.K_T_error, width_error),
-        degree=found.degree - 1,
     )
 
 

@@ -156,12 +156,12 @@ def match(
     """
     f, E_star = (number(v, name, "positive finite") for v, name in ((f, "f"), (E_star, "E_star")))
     law = {name: number(value, name, "positive finite") for name, value in parameters.items()}
-    requested = _requests(edge)
+    wished = _requests(edge)
     if not callable(getattr(module, "stick_zone", None)):
         raise TypeError(
             f"module must be a generated body, such as generated.hertz; got {module!r:.60}"
         )
-    if free and (free in law or all(one.L_N is None for one in requested.values())):
+    if free and (free in law or np.all(np.isnan(wished.L_N))):
         raise ValueError(
             f"free={free!r} is determined from L_N: give either {free} or L_N of an edge"
         )
@@ -169,19 +169,25 @@ def match(
     def of(name: str, a: Any, c: Any, law: Mapping[str, Any]) -> Any:
         return getattr(module, name)(a, c, E_star=E_star, **law)
 
-    (a, c, a_1, c_1), law = _contacts(of, requested, law, free)
-    if not any(one.da for one in requested.values()):
+    (a, c, a_1, c_1), law = _contacts(of, wished, law, free)
+    if not np.any(np.nan_to_num(wished.da)):
         a_1, c_1 = a, c
     first, second = (Contact(*at, float(module.tilt(*at, **law))) for at in ((a_1, c_1), (a, c)))
     (P_1, M_1), (P, M) = (
         [float(of(name, at.a, at.c, law)) for name in ("load", "moment")] for at in (first, second)
     )
-    if len(requested) == 1:
+    if np.any(np.isnan(wished.K_N)):
         M = M_1 = 0.0
-    dQ, dsigma = _shear(module, requested, a, c)
-    rows: list[Any] = [of("K_N", a, c, law), module.K_T(a, c, dQ, dsigma), (a - a_1, c - c_1)]
-    rows += [of("L_N", a, c, law), module.L_T(a, c, dQ, dsigma), Edges._fields]
-    edges = Edges(*(Edge._make([*map(float, v), side]) for *v, side in zip(*rows, strict=True)))
+    # K_T and L_T are linear in both; one edge without L_T needs no tension
+    rates = np.vstack([*module.K_T(a, c, *np.eye(2)), *module.L_T(a, c, *np.eye(2)), [0.0, 1.0]])
+    sizes = np.concatenate([wished.K_T, wished.L_T, [0.0]])
+    used = np.flatnonzero(np.isfinite(sizes))[:2]
+    dQ, dsigma = (np.linalg.solve(rates[used], sizes[used]) + 0.0).tolist()  # not -0
+    K_N, L_N = of("K_N", a, c, law), of("L_N", a, c, law)
+    K_T, L_T = module.K_T(a, c, dQ, dsigma), module.L_T(a, c, dQ, dsigma)
+    table = np.array([K_N, K_T, (a - a_1, c - c_1), L_N, L_T])
+    actual, rows = Edge(*table), zip(*table.tolist(), Edges._fields, strict=True)
+    zones = [slip_zone(*e[:2], f=f, da=e.da, L_N=e.L_N, L_T=e.L_T).d for e in (actual, wished)]
     if dQ < 0:
         dQ, dsigma = -dQ, 0.0 - dsigma
     zone = module.stick_zone(first, second, dQ, dsigma, f=f, E_star=E_star, **law)
@@ -189,12 +195,12 @@ def match(
     warning = ""
     if regime not in (Regime.MODERATE, Regime.LARGE):
         warning = MEANINGS.get(Regime(regime), "no stick zone was found")
-    elif max(getattr(d, side) for side in requested) > MAX_SLIP * (a + c):
+    elif np.any(np.isfinite(wished.K_N) & (np.array(d) > MAX_SLIP * (a + c))):
         warning = "the slip zone is a large part of the contact: the other edge affects it"
     return Rig(
-        *(P, M, dQ, dsigma, P - P_1, M - M_1, law, first, second, edges, d, regime),
-        *_compared(requested, edges, a + c),
-        Edges(*(_next_order(requested.get(one.side), one, f) for one in edges)),
+        *(P, M, dQ, dsigma, P - P_1, M - M_1, law, first, second, Edges(*map(Edge._make, rows))),
+        *(d, regime, *_compared(wished, actual, a + c)),
+        Edges(*(zones[0] / zones[1] - 1).tolist()),
         warning,
     )
 
@@ -247,26 +253,25 @@ def describe(rig: Rig) -> str:
     return "\n".join(lines + ([f"warning: {rig.warning}"] if rig.warning else []))
 
 
-def _requests(edge: Any) -> dict[str, Edge]:
-    """The data requested of each edge, as numbers."""
+def _requests(edge: Any) -> Any:
+    """An Edge of arrays, with the left and the right edge's numbers; NaN where nothing is asked."""
     pair = hasattr(edge, "left") and hasattr(edge, "right")  # Edges of any package
-    requested: dict[str, Edge] = {}
-    for side, one in zip(Edges._fields, edge, strict=True) if pair else [("", edge)]:
+    given = zip(Edges._fields, edge, strict=True) if pair else [(getattr(edge, "side", ""), edge)]
+    rows = dict.fromkeys(Edges._fields, [math.nan] * 5)
+    for side, one in given:
         if not isinstance(one, Edge):
             raise TypeError(f"edge must be an Edge, or Edges of two of them; got {one!r:.60}")
-        side = side or one.side
         if side not in Edges._fields:
             raise ValueError(f"side must be 'left' or 'right'; got {side!r:.40}")
-        for name, value in one._asdict().items():
-            if name != "side" and not (value is None and name in ("L_N", "L_T")):
-                size: Any = number(value, name, "positive finite" if name == "K_N" else "finite")
-                one = one._replace(**{name: size})
-        requested[side] = one
-    return requested
+        rows[side] = [number(one.K_N, "K_N", "positive finite")]
+        rows[side] += [number(one.K_T, "K_T"), number(one.da, "da")]
+        for name, value in (("L_N", one.L_N), ("L_T", one.L_T)):
+            rows[side].append(math.nan if value is None else number(value, name))
+    return Edge(*np.array([*rows.values()]).T)
 
 
 def _contacts(
-    of: Callable[..., Any], requested: Mapping[str, Edge], law: dict[str, float], free: str | None
+    of: Callable[..., Any], wished: Any, law: dict[str, float], free: str | None
 ) -> tuple[list[float], dict[str, float]]:
     """a and c at the end and at the start of the half-cycle, and the body's parameters.
 
@@ -276,7 +281,9 @@ def _contacts(
     from scipy.ndimage import minimum_filter
     from scipy.optimize import least_squares
 
-    alone = len(requested) == 1
+    alone = np.any(np.isnan(wished.K_N))
+    asked = np.isfinite([(0.0, 0.0), wished.K_N, wished.da, wished.L_N])
+    asked[3] &= bool(free)
 
     def place(u: Any) -> tuple[list[Any], dict[str, Any]]:
         h, lean = np.exp(u[..., 0]), u[..., 1]
@@ -286,16 +293,13 @@ def _contacts(
 
     def residual(u: Any) -> Any:
         (a, c, a_1, c_1), own = place(u)
-        K_N, L_N, moves = of("K_N", a, c, own), of("L_N", a, c, own), Edges(u[..., 2], u[..., 3])
+        h = (a + c)[..., None]
+        K_N, L_N = (np.stack(of(name, a, c, own), -1) for name in ("K_N", "L_N"))
         # M and dM vanish if one edge alone is given; in any case, both are contacts of the body
-        levers = (of("moment", *at, own) / of("load", *at, own) for at in ((a, c), (a_1, c_1)))
-        rows = [alone * lever / (a + c) for lever in levers]
-        for side, one in requested.items():
-            rows.append(np.log(getattr(K_N, side) / one.K_N))
-            rows.append(getattr(moves, side) - one.da / (a + c))
-            if free and one.L_N is not None:
-                rows.append((getattr(L_N, side) - one.L_N) * (a + c) / one.K_N)
-        off = np.stack(np.broadcast_arrays(*rows), -1)
+        levers = [of("moment", *at, own) / of("load", *at, own) for at in ((a, c), (a_1, c_1))]
+        rows = [alone * np.stack(levers, -1) / h, np.log(K_N / wished.K_N)]
+        rows += [u[..., 2:4] - wished.da / h, (L_N - wished.L_N) * h / wished.K_N]
+        off = np.stack(rows, -2)[..., asked]
         return np.where(np.isfinite(off), off, 1e9)
 
     # h from 1e-9 to 1e6 m, never near 1 m, as steps begin with the length of u
@@ -326,40 +330,14 @@ def _contacts(
     )
 
 
-def _shear(module: Any, requested: Mapping[str, Edge], a: float, c: float) -> tuple[float, float]:
-    """dQ and dsigma, of which K_T and L_T are linear functions."""
-    wished = [(module.K_T, side, one.K_T) for side, one in requested.items()]
-    wished += [
-        (module.L_T, side, one.L_T) for side, one in requested.items() if one.L_T is not None
-    ]
-    units = np.eye(2)[: len(wished)]  # K_T and L_T of one edge, or K_T of both
-    rates = [[getattr(of(a, c, *unit), side) for unit in units] for of, side, _ in wished[:2]]
-    dQ, dsigma = np.linalg.solve(rates, [size for *_, size in wished[:2]]) @ units
-    return float(dQ), float(dsigma)
-
-
-def _compared(requested: Mapping[str, Edge], edges: Edges, h: float) -> tuple[Any, Any]:
+def _compared(wished: Any, actual: Any, h: float) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Requests that are met, and those that are not."""
     met, missed = [], []
-    for side, one in requested.items():
-        K_N, K_T, *_ = actual = getattr(edges, side)
-        for name, size in zip(Edge._fields, (K_N, K_T, h, K_N / h, K_T / h), strict=False):
-            value, target = getattr(actual, name), getattr(one, name)
-            if target is None:
-                continue
-            if abs(value - target) <= MATCH_RTOL * max(abs(target), abs(size)):
+    sizes = actual.K_N, actual.K_T, [h, h], actual.K_N / h, actual.K_T / h
+    for i, side in enumerate(Edges._fields):
+        for name, value, target, size in zip(Edge._fields, actual, wished, sizes, strict=False):
+            if abs(value[i] - target[i]) <= MATCH_RTOL * max(abs(target[i]), abs(size[i])):
                 met.append(f"{name} ({side})")
-            else:
-                missed.append(f"{name} ({side}) is {value:.6g} instead of {target:.6g}")
+            elif np.isfinite(target[i]):
+                missed.append(f"{name} ({side}) is {value[i]:.6g} instead of {target[i]:.6g}")
     return tuple(met), tuple(missed)
-
-
-def _next_order(requested: Edge | None, actual: Edge, f: float) -> float:
-    """Relative change in the slip zone due to L_N and L_T, with each edge taken alone."""
-    if requested is None or requested.L_N is None or requested.L_T is None:
-        return math.nan
-    d, wished = (
-        slip_zone(one.K_N, one.K_T, f=f, L_N=one.L_N, L_T=one.L_T, da=one.da).d
-        for one in (actual, requested)
-    )
-    return float(d / wished - 1)
