@@ -21,7 +21,7 @@ def test_the_slip_zone_is_that_of_a_contact_without_end() -> None:
 
 def test_the_runtime_obeys_the_condition() -> None:
     """With K_T > 0 and a moving edge, to rounding; R is the polynomial of the stick zone."""
-    half = HalfCycle(2.0, 0.7, 0.2, 0.3, 0.05, 0.5)
+    half = HalfCycle(2.0, 0.2, 0.05, 0.7, 0.3, 0.5)
     before, d = (half.K_N_at(half.da), half.L_N), half.zone()
     now = (half.f * half.K_N, half.f * half.L_N), D
     then = [half.f * C for C in before], D - half.da

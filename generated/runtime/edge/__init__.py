@@ -9,10 +9,10 @@ rig      loads of a body whose edge then matches the edge of another contact
 
 from .elastic import E_star, EdgeWarning, dundurs
 from .fit import K_N_from_loads, PressureFit, ShearFit, fit_pressure, fit_stuck_shear
-from .near import SlipZone, Tractions, reach, slip_range, slip_zone, tractions
-from .rig import Edge, Rig, describe, match
+from .near import Edge, SlipZone, Tractions, reach, slip_range, slip_zone, tractions
+from .rig import Rig, describe, match
 
 __all__ = ["E_star", "EdgeWarning", "dundurs"]
 __all__ += ["K_N_from_loads", "PressureFit", "ShearFit", "fit_pressure", "fit_stuck_shear"]
-__all__ += ["SlipZone", "Tractions", "reach", "slip_range", "slip_zone", "tractions"]
-__all__ += ["Edge", "Rig", "describe", "match"]
+__all__ += ["Edge", "SlipZone", "Tractions", "reach", "slip_range", "slip_zone", "tractions"]
+__all__ += ["Rig", "describe", "match"]

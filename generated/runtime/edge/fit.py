@@ -280,9 +280,8 @@ def K_N_from_loads(P: Values, M: Values, a: Values, c: Values) -> Edges:
     with np.errstate(all="ignore"):
         h, mid = at_a + at_c, (at_c - at_a) / 2
         scale, turn = 2 / (np.pi * np.sqrt(h)), 4 * (dM + mid * dP) / h
-        left, right = scale * (dP + turn) / da, scale * (dP - turn) / dc
-        left, right = (np.where((K > 0) & (np.inf > K), K, np.nan)[()] for K in (left, right))
-    return Edges(left, right)
+        K_N = scale * (dP + turn) / da, scale * (dP - turn) / dc
+    return Edges(*(np.where((K > 0) & (np.inf > K), K, np.nan)[()] for K in K_N))
 
 
 def _table(x: Any, values: Any, name: str) -> tuple[Any, Any]:

@@ -1,22 +1,12 @@
-r"""Slip zone, tractions and slip next to an edge, from the series of pressure and full-stick shear.
+"""Slip zone, tractions and slip next to an edge, from the series of pressure and full-stick shear.
 
 At a distance s from the edge
 
     p = K_N s**(1/2) + L_N s**(3/2),   full-stick dq = K_T s**(-1/2) + L_T s**(1/2).
 
-Take f (p_1 + p_2) of the contacts at both ends of the half-cycle, with slip zones d_1 and d_2.  The
-bounded change in shear tends to that of full stick if (derive/theory/edge.py)
-
-    sum f (K_N d/2 + 3 L_N d**2/8) = |K_T| + L_T d/2,
-
-with L_T positive in the direction of slip.  A contact of width h adds sum f K_N d**2/(16 h) to the
-right-hand side.  At the first order, L_N = L_T = 0.  With t = s - d
-
-    dq = f (p_1 + p_2) - sqrt(t) R(t) in the stick zone,   dq = f (p_1 + p_2) in the slip zone,
-    slip range = (2/E*) int_0^(d - s) sqrt(u) R(-u) du,
-
-times the direction of slip, +1 or -1.  R(t) = R_0 + R_1 t makes dq tend to its full-stick value far
-from the edge.  A part of a half-cycle obeys the same equations, with the change up to that point.
+Far from the edge the bounded change in shear tends to that of full stick.  This gives d, as in
+`slip_zone`, and R(t) = R_0 + R_1 t in `tractions` (derive/theory/edge.py).  At the first order,
+L_N = L_T = 0.  A part of a half-cycle obeys the same equations, with the change up to that point.
 
 The shear traction itself is known if the normal loads are constant.  The first loading to Q and
 sigma produces half of the change under twice these loads, because friction in the slip zone is then
@@ -29,6 +19,25 @@ import numpy as np
 
 from ..arrays import demand_order, evaluated
 from ..types import Array, Values
+
+
+class Edge(NamedTuple):
+    """One edge at the end of the half-cycle that raises Q.
+
+    Parameters
+    ----------
+    K_N, K_T, da, L_N, L_T
+        As in slip_zone.
+    side : str, optional
+        "left" or "right", for `match`.
+    """
+
+    K_N: Array
+    K_T: Array
+    da: Array = 0.0
+    L_N: Array | None = None
+    L_T: Array | None = None
+    side: str = "left"
 
 
 class SlipZone(NamedTuple):
@@ -78,8 +87,10 @@ def slip_zone(
     """Slip zone at an edge from its coefficients, for any body.
 
         order 1: d = |K_T|/(f K_N) + da/2
-        order 2, with L_N and L_T: f K_N d + (3/4) f L_N d**2 = |K_T| + (L_T/2) d, with further
-            terms where da is not zero; h adds f K_N d**2/(8 h) on the right
+        order 2: sum f (K_N d/2 + (3/8) L_N d**2 - K_N d**2/(16 h)) = |K_T| + (L_T/2) d
+
+    The sum has a term for each end of the half-cycle, with the slip zone and K_N there.  L_T counts
+    as positive in the direction of slip.
 
     Parameters
     ----------
@@ -124,7 +135,7 @@ def slip_zone(
     >>> f"{d:.4g} m, to {error:.1g}"
     '0.0002317 m, to 3e-05'
     """
-    given = _coefficients(K_N, L_N, K_T, L_T, unknown=np.nan) | {"da": da}
+    given = _numbers(Edge(K_N, K_T, da, L_N, L_T), unknown=np.nan)
     most = 1 if L_N is None else 2
     order = most if order is None else order
     demand_order(order)
@@ -183,17 +194,7 @@ def reach(
 
 
 def tractions(
-    s: Values,
-    K_N: Values,
-    K_T: Values,
-    *,
-    f: Values,
-    L_N: Values | None = None,
-    L_T: Values | None = None,
-    da: Values = 0.0,
-    share: Values = 1.0,
-    back: bool = False,
-    mean: Values = 0.0,
+    s: Values, edge: Edge, *, f: Values, share: Values = 1.0, mean: Values = 0.0
 ) -> Tractions:
     """Pressure and shear traction next to a single edge, at any instant of the steady cycle.
 
@@ -206,12 +207,13 @@ def tractions(
     ----------
     s : array_like
         Distance inward from the position of the edge at the highest shear load [m].
-    K_N, K_T, f, L_N, L_T, da
-        As in slip_zone; of the first order unless L_N and L_T are given.
+    edge : Edge
+        Its coefficients; of the first order unless L_N and L_T are given.
+    f : array_like
+        Coefficient of friction [-].
     share : array_like, optional
-        Completed part of the half-cycle, from 0 to 1; all loads change linearly.
-    back : bool, optional
-        Whether to take the half-cycle that lowers the shear load, not the one that raises it.
+        Instant, from 0 to 1 in the half-cycle that raises the shear load and on to 2 in the one
+        that lowers it; all loads change linearly.
     mean : array_like, optional
         Mean of K_T over the cycle [Pa sqrt(m)]; before the first cycle, Q and sigma rose from zero
         to their highest values.
@@ -230,17 +232,15 @@ def tractions(
 
     Examples
     --------
-    >>> p, q, dq = tractions(1e-4, 1e10, 1e6, f=0.5)
+    >>> p, q, dq = tractions(1e-4, Edge(1e10, 1e6), f=0.5)
     >>> f"{q / p:.3g} and {dq / p:.3g}"  # slips: f and 2 f
     '0.5 and 1'
     """
-    if not isinstance(back, bool | np.bool_):
-        raise TypeError(f"back must be True or False, one value for all; got {back!r:.60}")
 
     def evaluate(s: Any, share: Any, mean: Any, *half_cycle: Any) -> Any:
         rising = HalfCycle(*half_cycle)
-        share = np.where((share >= 0) & (share <= 1), share, np.nan)
-        start, end = (1.0, 1 - share) if back else (0.0, share)
+        share = np.where((share >= 0) & (share <= 2), share, np.nan)
+        start, end = np.where(share > 1, 1.0, 0.0), np.minimum(share, 2 - share)
         half = rising.part(start, end)
         here = s - (1 - end) * rising.da  # from the edge at this instant
         p, dq, d = half.pressure(here), half.change(here), half.zone()
@@ -248,31 +248,21 @@ def tractions(
         whole = still.change(s)
         first = still.part(0.0, 2 * np.abs(mean / rising.K_T) + 1).change(s) / 2
         lowest = np.where(mean / rising.K_T >= 0, first - whole, -first)
-        q = np.where(back, lowest + whole, lowest) + dq
+        q = np.where(share > 1, lowest + whole, lowest) + dq
         return p + 0 * d, np.where(here <= d, half.sense * rising.f * p, q), dq  # NaN if d is
 
-    given = {"s": s, "share": share, "mean": mean} | _coefficients(K_N, L_N, K_T, L_T)
-    return evaluated(evaluate, given | {"da": da}, {"f": f}, Tractions)
+    given = {"s": s, "share": share, "mean": mean} | _numbers(edge)
+    return evaluated(evaluate, given, {"f": f}, Tractions)
 
 
-def slip_range(
-    s: Values,
-    K_N: Values,
-    K_T: Values,
-    *,
-    f: Values,
-    E_star: Values,
-    L_N: Values | None = None,
-    L_T: Values | None = None,
-    da: Values = 0.0,
-) -> Array:
+def slip_range(s: Values, edge: Edge, *, f: Values, E_star: Values) -> Array:
     """Slip range of a cycle next to a single edge.
 
         (2/E*) int_0^(d - s) sqrt(u) R(-u) du; order 1: (8 f K_N/(3 E*)) (d - s)**(3/2)
 
     Parameters
     ----------
-    s, K_N, K_T, f, L_N, L_T, da
+    s, edge, f
         As in tractions.
     E_star : array_like
         Composite modulus, see E_star() [Pa].
@@ -290,7 +280,7 @@ def slip_range(
 
     Examples
     --------
-    >>> f"{slip_range(0.0, 1e10, 1e6, f=0.5, E_star=1e11):.3g}"
+    >>> f"{slip_range(0.0, Edge(1e10, 1e6), f=0.5, E_star=1e11):.3g}"
     '3.77e-07'
     """
 
@@ -302,17 +292,18 @@ def slip_range(
         slip = R_0 * u**1.5 / 1.5 - R_1 * u**2.5 / 2.5
         return np.where(s >= np.maximum(half.da, 0.0), 2 / E_star * slip, np.nan)
 
-    given = {"s": s} | _coefficients(K_N, L_N, K_T, L_T) | {"da": da}
-    return evaluated(evaluate, given, {"f": f, "E_star": E_star})
+    return evaluated(evaluate, {"s": s} | _numbers(edge), {"f": f, "E_star": E_star})
 
 
-def _coefficients(K_N: Any, L_N: Any, K_T: Any, L_T: Any, unknown: float = 0.0) -> dict[str, Any]:
-    """The coefficients in the order of HalfCycle; L_N and L_T are unknown unless given."""
-    if (L_N is None) != (L_T is None):
+def _numbers(edge: Any, unknown: float = 0.0) -> dict[str, Any]:
+    """The numbers of an edge in the order of HalfCycle; L_N and L_T are unknown unless given."""
+    if not isinstance(edge, Edge):
+        raise TypeError(f"edge must be an Edge; got {edge!r:.60}")
+    if (edge.L_N is None) != (edge.L_T is None):
         raise ValueError("L_N and L_T have the same order: give both, or neither for order 1")
-    if L_N is None:
-        L_N = L_T = unknown
-    return {"K_N": K_N, "L_N": L_N, "K_T": K_T, "L_T": L_T}
+    if edge.L_N is None:
+        edge = edge._replace(L_N=unknown, L_T=unknown)
+    return dict(zip(HalfCycle._fields, edge[:5], strict=False))
 
 
 class HalfCycle(NamedTuple):
@@ -322,10 +313,10 @@ class HalfCycle(NamedTuple):
     """
 
     K_N: Any
-    L_N: Any
     K_T: Any
-    L_T: Any
     da: Any
+    L_N: Any
+    L_T: Any
     f: Any
     h: Any = np.inf
 
@@ -352,11 +343,11 @@ class HalfCycle(NamedTuple):
     def zone(self) -> Any:
         """The slip zone: the root of A d**2 + B d = C beyond which friction suffices."""
         before, shortest = self.K_N_at(self.da), np.maximum(self.da, 0.0)
-        own, other = (self.f * K_N / (16 * self.h) for K_N in (self.K_N, before))
-        A = 0.75 * self.f * self.L_N - own - other
-        B = self.f * self.K_N - self.sense * self.L_T / 2 + 2 * other * self.da
-        moved = self.f * (self.K_N / 2 + 3 / 8 * self.L_N * self.da) + other * self.da
-        C = np.abs(self.K_T) + moved * self.da
+        # a contact of width h acts as a smaller L_N
+        L, L_before = (self.L_N - K_N / (6 * self.h) for K_N in (self.K_N, before))
+        A = 3 / 8 * self.f * (L + L_before)
+        B = self.f / 2 * (self.K_N + before - 1.5 * L_before * self.da) - self.sense * self.L_T / 2
+        C = np.abs(self.K_T) + self.f / 2 * self.da * (before - 0.75 * L_before * self.da)
         d = 2 * C / (B + np.sqrt(B**2 + 4 * A * C))
         slips = (self.K_N > 0) & (before > 0) & (d >= shortest) & (B + 2 * A * shortest > 0)
         return np.where(slips, d, np.nan)

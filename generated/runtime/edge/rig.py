@@ -1,14 +1,8 @@
-r"""Loads of a body whose edge then matches the edge of another contact: a rig for a prototype.
+"""Loads of a body whose edge then matches the edge of another contact: a rig for a prototype.
 
 To first order, slip next to an edge depends only on K_N, K_T, f and the displacement of the edge.
-The contact of a body under P and M has two free numbers, a and c, so that a rig can match
-
-    one edge     K_N by the width, at M = 0; the displacement by dP, at dM = 0; K_T by dQ; if
-                 requested, L_T by dQ and dsigma together, and L_N by a free parameter of the body
-    both edges   both K_N by P and M; both displacements by dP and dM; both K_T by dQ and dsigma
-
-The remaining differences are one order higher: L_N and L_T, the width, and the other edge.  Some
-requests exclude each other: a cylinder has the same K_N at both edges, and L_N = -K_N/(2 h) there.
+The contact of a body under P and M has two free numbers, a and c, so that a rig can match one edge
+at M = dM = 0, or both.  docs/edge.md says what is matched by what, and what differs still.
 """
 
 import math
@@ -20,39 +14,13 @@ import numpy as np
 from ..arrays import number
 from ..reasons import MEANINGS
 from ..types import Contact, Edges, Regime
-from .near import slip_zone
+from .near import Edge, slip_zone
 
 MATCH_RTOL = 1e-8
 """Relative deviation below which a request counts as met."""
 
 MAX_SLIP = 0.2
 """Slip zone over contact width above which an edge is not independent of the other one."""
-
-
-class Edge(NamedTuple):
-    """One edge at the end of the half-cycle that raises Q.
-
-    Parameters
-    ----------
-    K_N : float
-        Coefficient of sqrt(s) in the pressure [Pa/sqrt(m)].
-    K_T : float
-        Coefficient of 1/sqrt(s) in the full-stick change in shear, signed [Pa sqrt(m)].
-    da : float, optional
-        How much further out the edge is than at the other end of the half-cycle [m].
-    L_N, L_T : float, optional
-        Coefficients of s**(3/2) and s**(1/2) [Pa/m**(3/2), Pa/sqrt(m)]; None if not known or not
-        requested.
-    side : str, optional
-        "left" or "right".
-    """
-
-    K_N: float
-    K_T: float
-    da: float = 0.0
-    L_N: float | None = None
-    L_T: float | None = None
-    side: str = "left"
 
 
 class Rig(NamedTuple):
