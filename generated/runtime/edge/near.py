@@ -239,9 +239,8 @@ def tractions(
 
     def evaluate(s: Any, share: Any, mean: Any, *half_cycle: Any) -> Any:
         rising = HalfCycle(*half_cycle)
-        share = np.where((share >= 0) & (share <= 2), share, np.nan)
-        start, end = np.where(share > 1, 1.0, 0.0), np.minimum(share, 2 - share)
-        half = rising.part(start, end)
+        end = np.minimum(share, 2 - share)
+        half = rising.part(np.where(share > 1, 1.0, 0.0), np.where(end >= 0, end, np.nan))
         here = s - (1 - end) * rising.da  # from the edge at this instant
         p, dq, d = half.pressure(here), half.change(here), half.zone()
         still = rising.part(0.0, np.where(rising.da == 0, 1.0, np.nan))
