@@ -12,7 +12,6 @@ from .fit import K_N_from_loads, PressureFit, ShearFit, fit_pressure, fit_stuck_
 from .near import Edge, SlipZone, Tractions, reach, slip_range, slip_zone, tractions
 from .rig import Rig, describe, match
 
-__all__ = ["E_star", "EdgeWarning", "dundurs"]
-__all__ += ["K_N_from_loads", "PressureFit", "ShearFit", "fit_pressure", "fit_stuck_shear"]
-__all__ += ["Edge", "SlipZone", "Tractions", "reach", "slip_range", "slip_zone", "tractions"]
-__all__ += ["Rig", "describe", "match"]
+__all__ = ["E_star", "EdgeWarning", "K_N_from_loads", "PressureFit", "ShearFit", "dundurs"]
+__all__ += ["Edge", "SlipZone", "Tractions", "fit_pressure", "fit_stuck_shear", "reach"]
+__all__ += ["Rig", "describe", "match", "slip_range", "slip_zone", "tractions"]

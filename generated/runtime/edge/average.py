@@ -61,9 +61,8 @@ def averaged(
     target = np.append(0.0, (y / sd)[:half])
     counts = np.unique(np.geomspace(3, half, 40).astype(int))
     used = np.arange(half + 1) <= counts[:, None]
-    first = np.tri(len(powers))[1:, None, None]  # from two columns to all
     with np.errstate(all="ignore"):
-        part = weighted * used[..., None] * first
+        part = weighted * used[..., None] * np.tri(len(powers))[1:, None, None]  # two and more
         inverse = np.linalg.pinv(part)
         b = inverse @ target
         misfit = np.sum((used * target - (part @ b[..., None])[..., 0]) ** 2, axis=-1)
@@ -102,11 +101,10 @@ def averaged(
 
 def _warning(x: Any, part: float, name: str) -> str:
     """Reasons to doubt a result."""
-    reasons = []
     steps = np.abs(np.diff(x))
     beside = np.maximum(np.append(steps[1:], 0.0), np.append(0.0, steps[:-1]))
-    for i in np.flatnonzero(steps > MAX_GAP * beside):
-        reasons.append(f"nodes are missing between x = {x[i]:.6g} and {x[i + 1]:.6g}")
+    gaps = np.flatnonzero(steps > MAX_GAP * beside)
+    reasons = [f"nodes are missing between x = {x[i]:.6g} and {x[i + 1]:.6g}" for i in gaps]
     if len(x) < MIN_NODES:
         reasons.append(
             f"there are only {len(x)} nodes in contact, and errors may be larger than stated: use "

@@ -58,11 +58,7 @@ def E_star(E: Values, nu: Values, E_2: Values | None = None, nu_2: Values | None
             EdgeWarning,
             stacklevel=2,
         )
-
-    def modulus(E: Any, nu: Any, E_2: Any, nu_2: Any) -> Any:
-        return 1 / (_compliance(E, nu) + _compliance(E_2, nu_2))
-
-    return evaluated(modulus, {"E": E, "nu": nu, "E_2": E_2, "nu_2": nu_2}, {})
+    return evaluated(_modulus, {"E": E, "nu": nu, "E_2": E_2, "nu_2": nu_2}, {})
 
 
 def dundurs(E: Values, nu: Values, E_2: Values, nu_2: Values) -> Array:
@@ -96,12 +92,13 @@ def dundurs(E: Values, nu: Values, E_2: Values, nu_2: Values) -> Array:
 
     def beta(E: Any, nu: Any, E_2: Any, nu_2: Any) -> Any:
         difference = (1 - 2 * nu) * (1 + nu) / E - (1 - 2 * nu_2) * (1 + nu_2) / E_2
-        return difference / (2 * (_compliance(E, nu) + _compliance(E_2, nu_2)))
+        return _modulus(E, nu, E_2, nu_2) / 2 * difference
 
     return evaluated(beta, {"E": E, "nu": nu, "E_2": E_2, "nu_2": nu_2}, {})
 
 
-def _compliance(E: Any, nu: Any) -> Any:
-    """(1 - nu**2)/E; NaN where E or nu is not that of an elastic body."""
-    exists = (E > 0) & np.isfinite(E) & (nu > -1) & (nu <= 0.5)
-    return np.where(exists, (1 - nu**2) / E, np.nan)
+def _modulus(E: Any, nu: Any, E_2: Any, nu_2: Any) -> Any:
+    """E*; NaN where a number is not that of an elastic body."""
+    exist = (E > 0) & np.isfinite(E) & (E_2 > 0) & np.isfinite(E_2)
+    exist &= (nu > -1) & (nu <= 0.5) & (nu_2 > -1) & (nu_2 <= 0.5)
+    return np.where(exist, 1 / ((1 - nu**2) / E + (1 - nu_2**2) / E_2), np.nan)

@@ -270,10 +270,9 @@ def K_N_from_loads(P: Values, M: Values, a: Values, c: Values) -> Edges:
     """
     given = [np.asarray(real(v, name)) for v, name in ((P, "P"), (M, "M"), (a, "a"), (c, "c"))]
     if any(v.ndim == 0 or v.shape[-1] != 2 for v in given):
-        shapes = ", ".join(str(v.shape) for v in given)
         raise ValueError(
             "P, M, a and c must each hold two values along their last axis, one for each load; "
-            f"their shapes are {shapes}"
+            f"their shapes are {', '.join(str(v.shape) for v in given)}"
         )
     (dP, dM, da, dc) = (v[..., 1] - v[..., 0] for v in given)
     at_a, at_c = (v.mean(-1) for v in given[2:])

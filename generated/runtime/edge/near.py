@@ -284,8 +284,7 @@ def slip_range(s: Values, edge: Edge, *, f: Values, E_star: Values) -> Array:
     """
 
     def evaluate(s: Any, *values: Any) -> Any:
-        *half_cycle, E_star = values
-        half = HalfCycle(*half_cycle)
+        half, E_star = HalfCycle(*values[:-1]), values[-1]
         R_0, R_1 = half.stuck()
         u = np.maximum(half.zone() - s, 0.0)
         slip = R_0 * u**1.5 / 1.5 - R_1 * u**2.5 / 2.5

@@ -113,7 +113,7 @@ def match(
     -----
     All arguments are numbers.  L_T, if given, is met by dsigma; otherwise dsigma = 0 for one edge.
     If the shear load would fall, all its signs are reversed so that dQ >= 0: slip is the same, in
-    the opposite direction.  If a body has several solutions, the widest contact is taken.
+    the opposite direction.  Of several solutions, the widest contact that is found is taken.
 
     Examples
     --------
