@@ -27,7 +27,9 @@ for body in sys.argv[1:]:
 from generated import hertz
 
 here = hertz.contact(1.2, 0.1, E_star=1.0, R=1.0)
-assert hertz.stick_zone(here, here, 0.1, 0.01, f=0.5, E_star=1.0, R=1.0).regime == 1
+friction = {"f": 0.5, "E_star": 1.0, "R": 1.0}
+assert hertz.stick_zone(here, here, 0.1, 0.01, **friction).regime == 1
+assert hertz.stick_zone(here, here, 0.3, 0.3245, **friction, mixed=True).regime == 3
 print(hertz.load(1.5, 1.0, E_star=1.0, R=1.0))
 """
 

@@ -13,6 +13,7 @@ from .body import Body
 from .chunks import any_lazy
 from .forward import each_contact, each_contact_at_tilt, each_pressure, each_series, each_state
 from .reasons import reason
+from .slip.mixed import each_mixed_zone
 from .slip.series import each_slip_zones
 from .slip.shear import each_shear_change, each_slip_range, rises_and_falls
 from .slip.zone import each_constant_zone, each_zone
@@ -132,11 +133,9 @@ def stick_zone(body: Body, own: Own, half_cycle: HalfCycle, mixed: bool = False)
 
 def stick_zones(body: Body, given: Own, constants: Own, own: Own, mixed: bool) -> StickZone:
     """Stick zones; `given` are the edges of both contacts, then dQ and dsigma, in this order."""
-    if mixed:
-        from .slip.mixed import each_mixed_zone  # needs SciPy
-
-        return solved(each_mixed_zone, body, given, constants, own, StickZone, ("regime",))
     each = each_zone if _varies(given) else each_constant_zone
+    if mixed:
+        each = each_mixed_zone
     zone: StickZone = solved(each, body, given, constants, own, StickZone, ("regime",))
     return zone
 

@@ -4,7 +4,7 @@ import math
 from typing import Any, NamedTuple
 
 from .elementary import EPS
-from .kernels import kernel
+from .kernels import shared
 
 
 class Search(NamedTuple):
@@ -24,7 +24,7 @@ class Search(NamedTuple):
     unit: float
 
 
-@kernel
+@shared
 def between(low: float, high: float, guess: float, unit: float) -> Search:
     """A search between bounds; it begins in the middle if the guess does not lie between them."""
     if not low < guess < high:
@@ -32,7 +32,7 @@ def between(low: float, high: float, guess: float, unit: float) -> Search:
     return Search(low, high, guess, guess, high - low, unit)
 
 
-@kernel
+@shared
 def narrowed(search: Any, value: float, rate: float) -> Search:
     """The search after the function has been evaluated at y.
 

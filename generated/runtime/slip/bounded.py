@@ -35,11 +35,13 @@ is subtracted and integrated exactly.
 import math
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ..elementary import EPS
 from ..inverse import contact_at_tilt
-from ..kernels import kernel
+from ..kernels import kernel, shared
 from ..search import between, narrowed
-from ..types import Regime
+from ..types import Array, Regime
 from .cycles import drives, turning_width
 from .newton import MAX_STEPS, log_step, moved
 from .quadrature import RULES, slip_zone
@@ -98,8 +100,8 @@ def slipping_in(cycle: Any, regime: float) -> Slipping:
     return slipping(cycle, kappa, -kappa)
 
 
-@kernel
-def integrals(zone: Any, stuck: float) -> Any:
+@shared
+def _integrals(zone: Any, stuck: float) -> Any:
     """int r/u, int r u, C and D of the module's docstring over one slip zone."""
     near = far = beyond = 0.0
     first = zone.at_start / math.sqrt(stuck)
@@ -118,17 +120,25 @@ def integrals(zone: Any, stuck: float) -> Any:
     return near, far, finite, beyond
 
 
-@kernel
-def _sums(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -> Any:
-    """L and R of slip zones, and twice dL/dm and dR/dn without the terms in F.
+@shared
+def both_zones(body: Any, of: Any, left: float, right: float) -> Any:
+    """Slip zones on both sides.
 
+    body: its law, its parameters, and the number of the quadrature rule
     left, right: their lengths in the smaller contact
     """
-    stuck = of.a + of.c - left - right
+    law, own, rule = body
     on_left = slip_zone(law, own, of.cycle, -1.0, left, math.nan, rule)
-    on_right = slip_zone(law, own, of.cycle, 1.0, right, math.nan, rule)
-    near_left, far_left, C_left, D_left = integrals(on_left, stuck)
-    near_right, far_right, C_right, D_right = integrals(on_right, stuck)
+    return on_left, slip_zone(law, own, of.cycle, 1.0, right, math.nan, rule)
+
+
+@shared
+def _sums(zones: Any, body: Any, of: Any, left: float, right: float) -> Any:
+    """L and R of slip zones, and twice dL/dm and dR/dn without the terms in F."""
+    stuck = of.a + of.c - left - right
+    on_left, on_right = zones(body, of, left, right)
+    near_left, far_left, C_left, D_left = _integrals(on_left, stuck)
+    near_right, far_right, C_right, D_right = _integrals(on_right, stuck)
     return (
         of.kappa * near_left + of.lamda * far_right,
         of.kappa * far_left + of.lamda * near_right,
@@ -149,16 +159,19 @@ def _first_guess(of: Any, ends: Any) -> Any:
     return left * shrink, right * shrink
 
 
-@kernel
-def _newton(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -> Any:
-    """Slip zones by Newton's method from a guess; NaN if it does not find any."""
+@shared
+def newton(zones: Any, body: Any, of: Any, left: float, right: float) -> Any:
+    """Slip zones by Newton's method from a guess; NaN if it does not find any.
+
+    zones, body: a function that makes slip zones, and its first argument
+    """
     width, best, part, by_left, by_right = of.a + of.c, math.inf, 1.0, 0.0, 0.0
     for _ in range(MAX_STEPS):
         next_left, next_right = moved(width, left, right, part * by_left, part * by_right)
         stuck = width - next_left - next_right
         error = math.inf
         if stuck > 0:  # rounding may leave nothing between long slip zones
-            L, R, by_m, by_n = _sums(law, own, of, next_left, next_right, rule)
+            L, R, by_m, by_n = _sums(zones, body, of, next_left, next_right)
             drive_left, drive_right = drives(of.cycle, stuck)
             off_left, off_right = L - drive_left, R - drive_right
             error = off_left * off_left + off_right * off_right
@@ -173,27 +186,25 @@ def _newton(law: Any, own: Any, of: Any, left: float, right: float, rule: int) -
         by_left, by_right = log_step(left, right, at_left, at_right, stuck)
         length = max(abs(by_left), abs(by_right))
         if length < NEWTON_RTOL + 16 * EPS * width / min(left, right, stuck):
-            if not stuck > turning_width(of.cycle.dQ, of.cycle.dsigma):
-                break
             return moved(width, left, right, by_left, by_right)
         part = min(1.0, LONGEST_STEP / length)
     return math.nan, math.nan
 
 
-@kernel
-def _placed(law: Any, own: Any, of: Any, stuck: float, n: float, rule: int) -> Any:
+@shared
+def placed(zones: Any, body: Any, of: Any, stuck: float, n: float) -> Any:
     """The right end of a stick zone of given width as the loads grow in proportion, and the part of
     the loads that it takes.
 
     Both conditions require L and R in the ratio of the drives; the deviation from this ratio grows
     with n.  Slip must be driven in opposite directions, or not at all on one side.
-    n: the first guess.
+    n: the first guess; zones, body: as in `newton`.
     """
     search = between(stuck - of.a, of.c, n, 2 * stuck)
     drive_left, drive_right = drives(of.cycle, stuck)
     for _ in range(2 * MAX_STEPS):
         n = search.y
-        L, R, by_m, by_n = _sums(law, own, of, of.a - stuck + n, of.c - n, rule)
+        L, R, by_m, by_n = _sums(zones, body, of, of.a - stuck + n, of.c - n)
         value, rate = drive_left * R - drive_right * L, (drive_left * by_n + drive_right * by_m) / 2
         search = narrowed(search, value, rate)
         if search.step == 0:
@@ -202,20 +213,20 @@ def _placed(law: Any, own: Any, of: Any, stuck: float, n: float, rule: int) -> A
 
 
 @kernel
-def _bracketed(law: Any, own: Any, of: Any, rule: int) -> Any:
+def _bracketed(body: Any, of: Any) -> Any:
     """Slip zones by the width of the stick zone, and whether slip reverses on one side."""
     width = of.a + of.c
     stuck = max(turning_width(of.cycle.dQ, of.cycle.dsigma), NARROWEST * width)
     if not stuck < width:
         return math.nan, math.nan, True
-    n, part = _placed(law, own, of, stuck, math.nan, rule)
+    n, part = placed(both_zones, body, of, stuck, math.nan)
     last, excess = stuck, 1 - part
     if excess > 0:
         return math.nan, math.nan, True
     search = between(stuck, width, math.nan, 2 * width)
     for _ in range(2 * MAX_STEPS):
         before, stuck = excess, search.y
-        n, part = _placed(law, own, of, stuck, n, rule)
+        n, part = placed(both_zones, body, of, stuck, n)
         excess = 1 - part
         search = narrowed(search, excess, (excess - before) / (stuck - last))
         if search.step == 0:
@@ -253,9 +264,9 @@ def _zone_between(law: Any, own: Any, of: Any, ends: Any, rtol: float) -> Any:
     left, right = _first_guess(of, ends)
     for rule in range(RULES):
         last_left, last_right, reverses = left, right, False
-        left, right = _newton(law, own, of, left, right, rule)
-        if not left + right < math.inf:
-            left, right, reverses = _bracketed(law, own, of, rule)
+        left, right = newton(both_zones, (law, own, rule), of, left, right)
+        if not of.a + of.c - left - right > turning_width(of.cycle.dQ, of.cycle.dsigma):
+            left, right, reverses = _bracketed((law, own, rule), of)
         if reverses:
             return math.nan, math.nan, Regime.MIXED
         m, n = of.a - left, of.c - right
@@ -288,24 +299,23 @@ def zone_of(law: Any, own: Any, of: Any, ends: Any, rtol: float) -> Any:
 # ---------------------------------------------------------------- the shear in the stick zone
 
 
-@kernel
-def _change_by(zone: Any, near: float, far: float) -> float:
+@shared
+def _change_by(zone: Any, near: Array, far: Array) -> Array:
     """dq due to r in a slip zone, at given distances from this end of the stick zone and the other
     one."""
-    if not zone.length > 0:
-        return 0.0
-    total, stuck = 0.0, near + far
+    total, stuck = 0.0 * near, near + far
     for i in range(zone.y.size):
         y = zone.y[i]
-        singular = math.sqrt(y * (y + stuck)) * (y + near)
+        singular = np.sqrt(y * (y + stuck)) * (y + near)
         total += zone.weight[i] * (zone.r[i] - zone.at_start) / singular
-    angle = math.atan2(math.sqrt(zone.length * far), math.sqrt(near * (zone.length + stuck)))
-    return (math.sqrt(near * far) * total + 2 * zone.at_start * angle) / math.pi
+    angle = np.arctan2(np.sqrt(zone.length * far), np.sqrt(near * (zone.length + stuck)))
+    return (np.sqrt(near * far) * total + 2 * zone.at_start * angle) / math.pi
 
 
-@kernel
-def change_between(of: Any, left: Any, right: Any, m: float, n: float, x: float) -> float:
-    """dq at x between two slip zones; if rounding puts x outside the stick zone, dq at its end."""
-    from_left, from_right = max(x + m, 0.0), max(n - x, 0.0)
-    by_left = _change_by(left, from_left, from_right)
-    return of.kappa * by_left + of.lamda * _change_by(right, from_right, from_left)
+@shared
+def change_between(of: Any, zones: Any, m: float, n: float, x: Array) -> Array:
+    """dq at x between two slip zones; where rounding puts x outside the stick zone, dq at its
+    end."""
+    from_left, from_right = np.maximum(x + m, 0.0), np.maximum(n - x, 0.0)
+    by_left = _change_by(zones[0], from_left, from_right)
+    return of.kappa * by_left + of.lamda * _change_by(zones[1], from_right, from_left)

@@ -109,7 +109,7 @@ def is_steady(cycle: Any) -> bool:
     return cycle.a_1 == cycle.a_2 and cycle.c_1 == cycle.c_2
 
 
-@kernel
+@shared
 def drives(cycle: Any, stuck: float) -> Any:
     """The drive of slip at both ends of a stick zone of given width."""
     by_tension = math.pi * stuck * cycle.dsigma / 8

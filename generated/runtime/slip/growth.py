@@ -21,9 +21,9 @@ from typing import Any
 
 from ..kernels import kernel
 from ..types import Regime
-from .bounded import ROUGH_RTOL, ZONE_RTOL, change_between, slipping, zone_of
+from .bounded import ROUGH_RTOL, ZONE_RTOL, both_zones, change_between, slipping, zone_of
 from .cycles import Cycle, advances, drives, ends_of, on_the_way
-from .quadrature import ROUGH, slip_zone
+from .quadrature import ROUGH
 
 PARTS = 8
 """Number of parts into which a half-cycle is divided to test the growth of slip."""
@@ -142,8 +142,7 @@ def _within_friction(law: Any, own: Any, of: Any, m: float, n: float, zone: Any)
     of, m, n: a part of the half-cycle, and its stick zone; zone: the final stick zone.
     """
     cycle = of.cycle
-    left = slip_zone(law, own, cycle, -1.0, of.a - m, math.nan, ROUGH)
-    right = slip_zone(law, own, cycle, 1.0, of.c - n, math.nan, ROUGH)
+    zones = both_zones((law, own, ROUGH), of, of.a - m, of.c - n)
     for k in range(2 * PLACES):
         part = (k // 2 + 0.5) / PLACES
         x, kappa = -zone[0] - part * (m - zone[0]), of.kappa
@@ -152,7 +151,7 @@ def _within_friction(law: Any, own: Any, of: Any, m: float, n: float, zone: Any)
         before = law.pressure(x, cycle.a_1, cycle.c_1, own)
         drop = cycle.f * (before - law.pressure(x, cycle.a_2, cycle.c_2, own))
         if drop > 0:
-            shear = kappa * change_between(of, left, right, m, n, x)
+            shear = kappa * change_between(of, zones, m, n, x)
             if not shear >= drop * (1 - FRICTION_RTOL):
                 return False
     return True

@@ -31,8 +31,9 @@ half-cycle: on the left, and on the right where nothing was gained.  In phase 1 
 sign at mid + H/2, where mid is the middle of the current stick zone.  This point is n when the
 phase ends, and lies in neither of these regions when the phase begins.
 
-In phases 1 and 3 slip grows as bounded.py describes, with the integrals L and R and dq; in phase 3
-the gain is subtracted.  All functions of position take arrays.
+In phases 1 and 3 slip grows as bounded.py describes, which solves for the slip zones: in phase 1
+for those beside a stick zone of the width H, in phase 3 for those in the contact [-m, c], whose
+width is H.  All functions of position take arrays.
 """
 
 import math
@@ -41,15 +42,15 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.polynomial.chebyshev import Chebyshev, chebpts1, chebvander
-from numpy.polynomial.legendre import leggauss
-from scipy.optimize import brentq, root
+from numpy.polynomial.chebyshev import chebinterpolate, chebpts1, chebval, chebvander
 
 from ..forward import breaks_of, each_pressure
+from ..search import between, narrowed
 from ..types import Array, Regime
-from .cycles import turning_width
+from .bounded import Slipping, change_between, newton, placed
+from .cycles import Cycle, turning_width
 from .growth import FRICTION_RTOL
-from .quadrature import SlipZone, double_exponential
+from .quadrature import ROUGH, SlipZone, cut_rule, double_exponential
 from .zone import each_zone, each_zone_of_regime
 
 TERMS = range(16, 65, 4)
@@ -63,48 +64,54 @@ MAX_STRIP = 1e-4
 """Width of the strip beyond the moderate zone in which the moderate solution holds, as
 (a + n - H)/(a + c).  There n departs from it by about the square of this, and m far less."""
 
-_RULE = double_exponential(1 / 6)
-_GAUSS = np.array(leggauss(64)) / 2 + [[0.5], [0.0]]
+_RULE = double_exponential(1 / 16)
 
 Place = Callable[[Array], Array]
 """A function of position; it takes and returns arrays."""
 
 
-# ---------------------------------------------------------------- slip that grows
+# ---------------------------------------------------------------- functions of position
 
 
-def _change_by(zone: SlipZone, near: Array, far: Array) -> Array:
-    """dq due to r in a slip zone (bounded.py), at given distances from this end of the stick zone
-    and the other one."""
-    y, stuck = zone.y, near + far
-    singular = np.sqrt(y * (y + stuck[:, None])) * (y + near[:, None])
-    total = np.sum(zone.weight * (zone.r - zone.at_start) / singular, axis=1)
-    angle = np.arctan2(np.sqrt(zone.length * far), np.sqrt(near * (zone.length + stuck)))
-    return (np.sqrt(near * far) * total + 2 * zone.at_start * angle) / math.pi
+def _points(start: float, stop: float, t: Array) -> Array:
+    """The points between `start` and `stop` at which a series has the argument t."""
+    return start + (stop - start) * np.sin(np.pi / 4 * (t + 1)) ** 2
 
 
-class _Slip(NamedTuple):
-    """Slip beside [-m, n]: forward on the left, and in the direction lamda on the right."""
+def _arguments(part: Array) -> Array:
+    """The arguments of a series, from -1 to 1, at parts of the way from its start to its stop."""
+    return 4 / np.pi * np.arcsin(np.sqrt(np.clip(part, 0.0, 1.0))) - 1
 
-    m: float
-    n: float
-    lamda: float
-    left: SlipZone
-    right: SlipZone
 
-    def integrals(self) -> Array:
-        """L and R."""
-        total = np.zeros(2)
-        for zone, kappa, way in ((self.left, 1.0, 1), (self.right, self.lamda, -1)):
-            u = np.sqrt(zone.y / (self.m + self.n + zone.y))
-            total += kappa * np.sum(zone.weight * zone.r * [1 / u, u], axis=1)[::way]
-        return total
+class _Series(NamedTuple):
+    """A function of x between `start` and `stop`, which is zero beyond `stop`.
 
-    def change(self, x: Array) -> Array:
-        """dq at x; if rounding puts x outside the stick zone, dq at its end."""
-        from_left, from_right = np.maximum(x + self.m, 0.0), np.maximum(self.n - x, 0.0)
-        by_right = _change_by(self.right, from_right, from_left)
-        return _change_by(self.left, from_left, from_right) + self.lamda * by_right
+    It is analytic in the square roots of the distances from both: x = start + (stop - start)
+    sin(pi (t + 1)/4)**2, with Chebyshev polynomials of t.
+    """
+
+    start: float
+    stop: float
+    terms: Array
+
+    def __call__(self, x: Array) -> Array:
+        """The values at points x; that of the start before it."""
+        t = _arguments((x - self.start) / (self.stop - self.start))
+        return np.where(x < self.stop, chebval(t, self.terms), 0.0)
+
+    def integral(self, x: float) -> float:
+        """The integral from the start to x."""
+        length = x - self.start
+        return float(length * np.sum(_RULE[1] * self(self.start + length * _RULE[0])))
+
+
+def _tabulated(values: Place, start: float, stop: float, count: int) -> _Series:
+    """A function as a series with `count` terms."""
+    terms = chebinterpolate(lambda t: values(_points(start, stop, t)), count - 1)
+    return _Series(start, stop, terms)
+
+
+# ---------------------------------------------------------------- a half-cycle
 
 
 class _HalfCycle(NamedTuple):
@@ -113,246 +120,165 @@ class _HalfCycle(NamedTuple):
     law    of the body
     own    the body's parameters, in one row
     sense  -1 for a mirror image
-    a, c   edges of the contact, or of its mirror image
     cuts   breaks of the body
+    cycle  contact, loads and friction
     H      the width of a stick zone whose right end is not driven
     """
 
     law: Any
     own: Array
-    f: float
     sense: float
-    a: float
-    c: float
-    dQ: float
-    dsigma: float
     cuts: Array
+    cycle: Cycle
     H: float
 
     def limit(self, x: Array) -> Array:
         """2 f p; zero at a corner."""
-        given, p = np.ones((x.size, 4)), np.empty((x.size, 1))
+        edges = self.cycle[:2][:: int(self.sense)]
+        given, p = np.tile([0.0, *edges, 2 * self.cycle.f], (x.size, 1)), np.empty((x.size, 1))
         given[:, 0] = self.sense * x
-        given[:, 1:3] = (self.a, self.c) if self.sense > 0 else (self.c, self.a)
         each_pressure(self.law, given, np.repeat(self.own, x.size, axis=0), p)
-        return np.where(p < math.inf, 2 * self.f * p, 0.0)[:, 0]
-
-    def slip(
-        self, m: float, n: float, edge: float, lamda: float, rest: tuple[Place, Place], cut: float
-    ) -> _Slip:
-        """The slip from -m to the edge on the left, and from n to c.
-
-        rest  the shear that slip leaves on the left and on the right, 2 f p less what was gained
-        cut   where that on the right is not smooth
-        """
-        zones = []
-        for side, start, length, left in ((-1, m, edge - m, rest[0]), (1, n, self.c - n, rest[1])):
-            cuts = side * np.append(self.cuts, cut) - start
-            ends = np.unique([0.0, *cuts[(cuts > 0) & (cuts < length)], length])
-            widths = np.diff(ends)[:, None]
-            y = np.append(ends[:-1, None] + widths * _RULE[0], 0.0)
-            r = left(side * (start + y))
-            zones.append(SlipZone(y[:-1], np.ravel(widths * _RULE[1]), r[:-1], length, r[-1]))
-        return _Slip(m, n, lamda, *zones)
-
-
-class _Leg(NamedTuple):
-    """A part of phase 2, in which m falls from `top` by `span` sin(pi s/2)**2, s from 0 to `end`.
-
-    rate  Lambda as a series in s
-    """
-
-    top: float
-    span: float
-    rate: Chebyshev
-    end: float = 1.0
-
-    @property
-    def bottom(self) -> float:
-        """m at the end."""
-        return float(self.top - self.span * np.sin(np.pi / 2 * self.end) ** 2)
-
-    def elapsed(self, s: float) -> float:
-        """The part of the half-cycle up to s: span int_0^s (pi/2) sin(pi s) Lambda ds."""
-        at = s * _GAUSS[0]
-        rates = np.sin(np.pi * at) * self.rate(at)
-        return float(np.pi / 2 * self.span * s * np.sum(_GAUSS[1] * rates))
+        return np.where(p < math.inf, p, 0.0)[:, 0]
 
 
 class _State(NamedTuple):
     """What a half-cycle passes on to the next.
 
     m, n   the permanent stick zone
-    end    points from n to `end` have stuck again
-    rubs   whether points beyond `end` are at the friction limit, where 2 f p was gained; otherwise
-           nothing was gained there
-    rest   2 f p less the shear gained since points began to stick again
+    gain   the shear gained since points beyond n began to stick again, up to where they did
+    reach  the slip zone of phase 1 ends here: at the edge, or where the gain is 2 f p from here on
     """
 
     m: float
     n: float
-    end: float
-    rubs: bool
-    rest: Place
+    gain: _Series
+    reach: float
 
 
-# ---------------------------------------------------------------- the three phases
+def _zones(body: Any, of: Slipping, left: float, right: float) -> Any:
+    """Slip zones of given lengths, which leave 2 f p less what was gained.
 
-
-def _phase_1(of: _HalfCycle, begun: _State) -> tuple[float, _Slip]:
-    """lambda and the slip when m + n = H; the search begins next to the last n.
-
-    lambda is NaN if no such zone is found.
+    body: the half-cycle, what was gained on the left and on the right, and where the latter is not
+        smooth
     """
-
-    def slip(n: float) -> _Slip:
-        return of.slip(of.H - n, n, of.a, -1.0, (of.limit, begun.rest), begun.end)
-
-    def off(n: float) -> float:
-        return float(slip(n).integrals()[1])
-
-    least, most, near = of.H - of.a + 1e-12 * of.H, of.c - 1e-12 * of.H, 1e-3 * of.H
-    for low, high in ((max(least, begun.n - near), min(most, begun.n + near)), (least, most)):
-        if off(low) < 0 < off(high):
-            found = slip(brentq(off, low, high, xtol=1e-12 * of.H))
-            return found.integrals()[0] / (2 * of.dQ), found
-    return math.nan, slip(least)
+    half, gains, cut = body
+    zones = []
+    for side, start, length, gain in (
+        (-1, of.a - left, left, gains[0]),
+        (1, of.c - right, right, gains[1]),
+    ):
+        y, weight = cut_rule(length, side * np.append(half.cuts, cut) - start, ROUGH)
+        x = side * (start + np.append(y, 0.0))
+        r = half.limit(x) - gain(x)
+        zones.append(SlipZone(y, weight, r[:-1], length, r[-1]))
+    return zones
 
 
-def _gained(of: _HalfCycle, legs: list[_Leg], x: Array) -> Array:
-    """(dsigma/4) int sqrt((H - x - mu)/(x + mu)) Lambda dmu over the legs, while x sticks."""
-    x, total = np.asarray(x)[..., None], np.zeros(np.shape(x))
-    for leg in legs:
-        distance = of.H - x - leg.top
-        top = np.minimum(0.0, distance)
-        length = np.maximum(leg.top + top - leg.bottom, 0.0)
-        below_top = length * _RULE[0][::-1]
-        s = 2 / np.pi * np.arcsin(np.sqrt(np.clip((below_top - top) / leg.span, 0.0, 1.0)))
-        above, below = below_top + (distance - top), x + leg.bottom + length * _RULE[0]
-        root_ = np.sqrt(np.where(length > 0, above / below, 0.0))
-        total += np.sum(length * _RULE[1] * leg.rate(s) * root_, axis=-1)
-    return of.dsigma / 4 * total
+# ---------------------------------------------------------------- phase 2
 
 
-def _next_leg(
-    of: _HalfCycle, dq: Place, before: list[_Leg], top: float, span: float, count: int
-) -> _Leg:
-    """The next leg, given those before it: Abel's equation at Chebyshev points.
-
-    At m = top - span v**2 it is, with Lambda taken at v cos(phi) in place of v,
-
-        int_0^(pi/2) sqrt(H/span - (v sin(phi))**2) cos(phi) Lambda dphi = right.
-    """
-    v = np.sin(np.pi / 4 * (chebpts1(count) + 1))
-    x, phi = span * v**2 - top, np.pi / 2 * _GAUSS[0]
-    right = (of.limit(x) - dq(x) - _gained(of, before, x)) * 2 / (of.dsigma * span * v)
-    far = np.sqrt(np.maximum(of.H / span - np.outer(v, np.sin(phi)) ** 2, 0.0)) * np.cos(phi)
-    t = 4 / np.pi * np.arcsin(np.outer(v, np.cos(phi))) - 1
-    matrix = np.einsum("ij,ijk->ik", np.pi / 2 * _GAUSS[1] * far, chebvander(t, count - 1))
-    return _Leg(top, span, Chebyshev(np.linalg.solve(matrix, right), domain=(0, 1)))
+def _gains(of: _HalfCycle, start: float, stop: float, count: int, x: Array) -> Array:
+    """The shear gained at points x in a leg, per term of its series for Lambda:
+    (dsigma/4) int sqrt((H - t)/t) T_k dmu while they stick, 0 < t < H."""
+    x, (q, weight) = x[:, None], _RULE
+    low, high = np.maximum(start, x - of.H), np.minimum(stop, x)
+    length = np.maximum(high - low, 0.0)
+    t = np.maximum(x - stop, 0.0) + length * q
+    rest = np.maximum(start + of.H - x, 0.0) + length * q[::-1]  # H - t
+    factors = of.cycle.dsigma / 4 * length * weight * np.sqrt(rest / t)
+    terms = chebvander(_arguments((low - start + length * q[::-1]) / (stop - start)), count - 1)
+    gains: Array = np.einsum("ij,ijk->ik", factors, terms)
+    return gains
 
 
-def _phase_2(of: _HalfCycle, first: _Slip, part: float, count: int) -> tuple[list[_Leg], float]:
+def _gained(of: _HalfCycle, legs: list[_Series], x: Array) -> Array:
+    """The shear gained at points x in all legs."""
+    return sum((_gains(of, *leg[:2], leg.terms.size, x) @ leg.terms for leg in legs), 0.0 * x)
+
+
+def _leg(
+    of: _HalfCycle, dq: Place, before: list[_Series], start: float, stop: float, count: int
+) -> _Series:
+    """Lambda while the left end moves on from x = start to x = stop, given the legs before: Abel's
+    equation at the points of a series."""
+    x = _points(start, stop, chebpts1(count))
+    right = of.limit(x) - dq(x) - _gained(of, before, x)
+    return _Series(start, stop, np.linalg.solve(_gains(of, start, stop, count, x), right))
+
+
+def _phase_2(
+    of: _HalfCycle, dq: Place, n: float, part: float, count: int
+) -> tuple[list[_Series], float]:
     """The legs until all of the right edge sticks or the half-cycle ends, and lambda then.
 
     A new leg begins at each break, because Lambda has a square root before it.  No legs if the zone
     that never slips gets narrower than H/16.
     """
-    legs, m, sticks_all_right = list[_Leg](), first.m, of.H - of.c
-    least = max(sticks_all_right, of.H / 16 - first.n)
-    while m > least:
-        bottom = max([least, *(-at for at in of.cuts if least < -at < m)])
-        leg = _next_leg(of, first.change, legs, m, m - bottom, count)
-        at_end = part + leg.elapsed(1.0)
-        if at_end >= 1:
-            end = brentq(lambda s, leg, part: part + leg.elapsed(s) - 1, 0.0, 1.0, (leg, part))
-            return [*legs, leg._replace(end=end)], 1.0
-        legs, m, part = [*legs, leg], leg.bottom, at_end
-    return (legs, part) if least == sticks_all_right else ([], part)
+    legs, start, sticks_all_right = list[_Series](), n - of.H, of.cycle.c_1 - of.H
+    last = min(sticks_all_right, n - of.H / 16)
+    while start < last:
+        stop = min([last, *of.cuts[(start < of.cuts) & (of.cuts < last)]])
+        leg = _leg(of, dq, legs, start, stop, count)
+        at_stop = part + leg.integral(stop)
+        if at_stop >= 1:
+            search = between(start, stop, math.nan, of.H)
+            while search.step > 0:
+                value = part + leg.integral(search.y) - 1
+                search = narrowed(search, value, float(leg(search.y)))
+            return [*legs, _leg(of, dq, legs, start, search.y, count)], 1.0
+        legs, start, part = [*legs, leg], stop, at_stop
+    return (legs, part) if last == sticks_all_right else ([], part)
 
 
-def _phase_3(
-    of: _HalfCycle, m: float, part: float, rest: tuple[Place, Place], cut: float, begun: _State
-) -> _Slip | None:
-    """The slip in the contact [-m, c], whose width is H.
-
-    The unknowns are the logarithms of the ratios of both slip zones to the stick zone.  At the
-    start of phase 3 the left edge is driven by 2 dQ and the right one not at all; later the right
-    one is driven in proportion to the loss of width of the stick zone.
-    """
-    dQ, growth = part * of.dQ, np.pi * part * of.dsigma / 8
-    last = np.array([m - begun.m, of.c - begun.end]) / (begun.m + begun.end)
-
-    def slip(logarithms: Array) -> _Slip:
-        ratios = np.exp(logarithms)
-        left, right = of.H * ratios / (1 + np.sum(ratios))
-        return of.slip(m - left, of.c - right, m, 1.0, rest, cut)
-
-    def off(logarithms: Array) -> Array:
-        found = slip(logarithms)
-        growing = (found.m + found.n) * growth
-        return (found.integrals() - dQ - [growing, -growing]) / dQ
-
-    found = root(off, np.log(np.where(last > 1e-9, last, 0.1)), method="lm", tol=1e-12)
-    return slip(found.x) if np.max(np.abs(found.fun)) < 1e-9 else None
-
-
-def _tabulated(values: Place, start: float, end: float, count: int) -> Place:
-    """A function as a series, analytic in the square roots of the distances from both ends."""
-    length = end - start
-    series = Chebyshev.interpolate(
-        lambda s: values(start + length * np.sin(np.pi / 2 * s) ** 2), count - 1, domain=(0, 1)
-    )
-    return lambda x: series(2 / np.pi * np.arcsin(np.sqrt(np.clip((x - start) / length, 0, 1))))
+# ---------------------------------------------------------------- all phases
 
 
 def _half_cycle(of: _HalfCycle, begun: _State, count: int) -> _State | None:
     """The state at the end of a half-cycle, by series with `count` terms; None if it does not have
-    these phases."""
-    part, first = _phase_1(of, begun)
+    three phases, or two."""
+    a, c = of.cycle.a_1, of.cycle.c_1
+    opens = Slipping(of.cycle, 1.0, -1.0, a, begun.reach)
+    body: Any = of, (np.zeros_like, begun.gain), begun.gain.stop
+    n, part = placed(_zones, body, opens, of.H, begun.n)
     if not 0 < part < 1:
         return None
-    legs, part = _phase_2(of, first, part, count)
-    s = (chebpts1(count) + 1) / 2
-    if not legs or min(np.min(leg.rate(leg.end * s)) for leg in legs) < 0:
+    zones = _zones(body, opens, a - (of.H - n), begun.reach - n)
+    first = partial(change_between, opens, zones, of.H - n, n)
+    legs, part = _phase_2(of, first, n, part, count)
+    if not legs or min(np.min(leg(_points(*leg[:2], chebpts1(count)))) for leg in legs) < 0:
         return None
-    m, n = legs[-1].bottom, first.n
-    end = min(of.H - m, of.c)
-    gain = _tabulated(partial(_gained, of, legs), n, end, count)
-
-    def right(x: Array) -> Array:
-        return of.limit(x) - np.where(x < end, gain(x), 0.0)
-
+    m = -legs[-1].stop
+    gain = _tabulated(partial(_gained, of, legs), n, min(of.H - m, c), count)
     if part == 1:
-        return _State(m, n, end, False, right)
+        return _State(m, n, gain, c)
 
-    def left(x: Array) -> Array:
+    def held(x: Array) -> Array:
         x = np.maximum(x, -m)
-        return of.limit(x) - _gained(of, legs, x) - first.change(x)
+        return _gained(of, legs, x) + first(x)
 
-    third = _phase_3(of, m, 1 - part, (left, right), n, begun)
-    if third is None or third.m + n < 0:
+    rest = of.cycle._replace(dQ=(1 - part) * of.cycle.dQ, dsigma=(1 - part) * of.cycle.dsigma)
+    closes, body = Slipping(rest, 1.0, 1.0, m, c), (of, (held, gain), n)
+    before = np.array([m - begun.m, c - begun.gain.stop])
+    left, right = newton(_zones, body, closes, *np.where(before > 1e-9 * of.H, before, of.H / 12))
+    zones, end, m = _zones(body, closes, left, right), c - right, m - left
+    if not m + n >= 0:
         return None
-    start = n if n < third.n else 2 * third.n - of.c
-    at_end = _tabulated(lambda x: gain(x) + third.change(x), start, third.n, count)
-
-    def rest(x: Array) -> Array:
-        return np.where(x < third.n, of.limit(x) - at_end(x), 0.0)
-
-    return _State(third.m, n, third.n, True, rest)
+    change = partial(change_between, closes, zones, m, end)
+    start = n if n < end else 2 * end - c  # not sound, but the next iteration may be
+    return _State(m, n, _tabulated(lambda x: gain(x) + change(x), start, end, count), end)
 
 
 def _is_sound(of: _HalfCycle, state: _State, count: int) -> bool:
     """Whether the shear traction stays within the friction limit where points stick again, and is
     not driven further where it is at that limit."""
-    if not state.n < state.end <= of.c:
+    c, end = of.cycle.c_1, state.gain.stop
+    if not state.n < end <= c:
         return False
-    turns = (of.c - of.a) / 2 + of.H / 2
-    last = of.c if state.rubs else state.end
-    at_points = np.sin(np.pi / 4 * (chebpts1(count) + 1)) ** 2  # where the series is exact
-    x = state.n + (state.end - state.n) * at_points
-    limit, rest = of.limit(x), state.rest(x)
-    excess = np.max(np.maximum(-rest, rest - limit))
+    turns = (c - of.cycle.a_1) / 2 + of.H / 2
+    last = c if state.reach == end else end
+    x = _points(state.n, end, chebpts1(count))  # where the series is exact
+    limit, gain = of.limit(x), state.gain(x)
+    excess = np.max(np.maximum(gain - limit, -gain))
     return bool(-state.m <= turns <= last and excess <= FRICTION_RTOL * np.max(limit))
 
 
@@ -361,23 +287,24 @@ def _by_phases(of: _HalfCycle, m: float, n: float) -> tuple[float, float]:
 
     m, n: a first guess
     """
-    last = _State(m, n, n, False, of.limit)
+    last = _State(m, n, _Series(-m, n, np.zeros(1)), of.cycle.c_1)
+    small = ZONE_RTOL * (of.cycle.a_1 + of.cycle.c_1)
     for count in TERMS:
         state = _half_cycle(of, last, count)
         if state is None:
             break
-        if max(abs(state.m - last.m), abs(state.n - last.n)) <= ZONE_RTOL * (of.a + of.c):
+        if max(abs(state.m - last.m), abs(state.n - last.n)) <= small:
             return (state.m, state.n) if _is_sound(of, state, count) else (math.nan, math.nan)
         last = state
     return math.nan, math.nan
 
 
-def _mixed_zone(law: Any, cycle: Array, own: Array) -> tuple[float, float]:
+def _mixed_zone(law: Any, row: Array, own: Array) -> tuple[float, float]:
     """m and n of a cycle of constant loads in which slip reverses; NaN if they are not found.
 
-    cycle: a_1, c_1, a_2, c_2, dQ, dsigma, f, E*
+    row: a_1, c_1, a_2, c_2, dQ, dsigma, f, E*
     """
-    a, c, _, _, dQ, dsigma, f, E_star = cycle
+    a, c, _, _, dQ, dsigma, f, E_star = row
     dQ, dsigma = dQ / E_star, dsigma / E_star
     if not (dQ > 0 and dsigma != 0):
         return math.nan, math.nan
@@ -386,8 +313,8 @@ def _mixed_zone(law: Any, cycle: Array, own: Array) -> tuple[float, float]:
     each_zone_of_regime(law, given, own, moderate)
     (a, c), (m, n) = (pair[:: int(sense)] for pair in ((a, c), moderate[0]))
     if not 0 < a + n - H <= MAX_STRIP * (a + c):
-        cuts = sense * breaks_of(law, own[0])
-        m, n = _by_phases(_HalfCycle(law, own, f, sense, a, c, dQ, abs(dsigma), cuts, H), m, n)
+        cycle, cuts = Cycle(a, c, a, c, dQ, abs(dsigma), f), sense * breaks_of(law, own[0])
+        m, n = _by_phases(_HalfCycle(law, own, sense, cuts, cycle, H), m, n)
     return (m, n) if sense > 0 else (n, m)
 
 

@@ -7,13 +7,13 @@ them, so that all three stay positive.
 import math
 from typing import Any
 
-from ..kernels import kernel
+from ..kernels import shared
 
 MAX_STEPS = 40
 """Largest number of steps; four to six are common."""
 
 
-@kernel
+@shared
 def log_step(left: float, right: float, one: Any, other: Any, stuck: float) -> Any:
     """The Newton step in the logarithms of both slip zones over the stick zone.
 
@@ -31,7 +31,7 @@ def log_step(left: float, right: float, one: Any, other: Any, stuck: float) -> A
     return left_grows / left + narrows, right_grows / right + narrows
 
 
-@kernel
+@shared
 def moved(width: float, left: float, right: float, by_left: float, by_right: float) -> Any:
     """Slip zones in a contact of given width after a step of log_step."""
     stuck = width - left - right

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from ..elementary import EPS
-from ..kernels import kernel
+from ..kernels import kernel, shared
 from .cycles import is_steady
 
 RULES = 5
@@ -82,7 +82,7 @@ def limit(law: Any, own: Any, cycle: Any, x: float) -> float:
     return cycle.f * p if p < math.inf else 0.0
 
 
-@kernel
+@shared
 def cut_rule(length: float, cuts: Any, rule: int) -> Any:
     """Nodes and weights of a rule on (0, length), cut at those of the given points inside it."""
     first, last = _FIRST[rule], _FIRST[rule + 1]

@@ -40,7 +40,7 @@ import numpy as np
 from ..elementary import EPS
 from ..kernels import kernel, loop, opened
 from ..types import Array, Regime, StickZone
-from .bounded import ZONE_RTOL, change_between, slipping_in
+from .bounded import ZONE_RTOL, both_zones, change_between, slipping_in
 from .cycles import cycle_of, is_steady
 from .quadrature import FINEST, pressures, slip_zone
 
@@ -76,9 +76,8 @@ def _change(law: Any, own: Any, row: Any) -> float:
     if of.kappa == of.lamda:
         x = _beside_corner(law, own, x, m, n)
         return cycle.f * (pressures(law, own, cycle, x) - 2 * law.pressure(x, m, n, own))
-    left = slip_zone(law, own, cycle, -1.0, of.a - m, math.nan, FINEST)
-    right = slip_zone(law, own, cycle, 1.0, of.c - n, math.nan, FINEST)
-    return change_between(of, left, right, m, n, x)
+    zones = both_zones((law, own, FINEST), of, of.a - m, of.c - n)
+    return change_between(of, zones, m, n, x)
 
 
 @loop
