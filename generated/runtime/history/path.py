@@ -46,12 +46,6 @@ class Path(NamedTuple):
     instant: Array
 
 
-def touching(body: Body, own: Own, P: Array, M: Array) -> tuple[Array, Array]:
-    """The edges a and c of the contacts under the loads; NaN without contact."""
-    found = contact(body, own, np.where(P > 0, P, np.nan), M, 1.0)
-    return found.a, found.c
-
-
 def path(body: Body, own: Own, f: float, loads: Array, reach: float, short_end: bool) -> Path:
     """The path; its first row is the contact at the first instant without shear.
 
@@ -59,7 +53,7 @@ def path(body: Body, own: Own, f: float, loads: Array, reach: float, short_end: 
     short_end: whether the last step before an instant is short.
     """
     loads = np.hstack([loads[:, :1] * [[1.0], [1.0], [0.0], [0.0]], loads])
-    a, c = touching(body, own, *loads[:2])
+    a, c, _ = contact(body, own, loads[0], loads[1], 1.0)
     widest = np.max(np.nan_to_num(a + c))
     pieces, unknown = [loads[:, :1]], [False]
     for k in range(1, loads.shape[1]):
@@ -71,11 +65,11 @@ def path(body: Body, own: Own, f: float, loads: Array, reach: float, short_end: 
     rows = np.hstack(pieces)
     rows[:, last] = loads
     rows[2, unknown] = np.nan
-    edges = touching(body, own, rows[0], rows[1])
     instant = np.full(rows.shape[1], -1)
     instant[last[1:]] = np.arange(last.size - 1)
     P, M, Q, sigma = rows
-    return Path(P, M, Q, sigma, *edges, instant)
+    a, c, _ = contact(body, own, P, M, 1.0)
+    return Path(P, M, Q, sigma, a, c, instant)
 
 
 def _between(first: Array, second: Array, t: Array) -> Array:
@@ -133,7 +127,7 @@ class _Way(NamedTuple):
             part = (low + high) / 2
             empty, full = self.loads[:2, 1 - touching_end], self.loads[:2, touching_end]
             P, M = _between(empty, full, part)
-            left, right = touching(self.body, self.own, P, M)
+            left, right, _ = contact(self.body, self.own, P, M, 1.0)
             near = left < a + self.widest and right < c + self.widest
             if near and left + right > SMALL_CONTACT * (a + c):
                 high = part
@@ -146,6 +140,6 @@ class _Way(NamedTuple):
         if not (math.isnan(self.a[0]) and self.a[1] + self.c[1] > 0):
             return False
         P, M = _between(self.loads[:2, 0], self.loads[:2, 1], t)
-        left, right = touching(self.body, self.own, P, M)
+        left, right, _ = contact(self.body, self.own, P, M, 1.0)
         small = left + right < 2 * SMALL_CONTACT * (self.a[1] + self.c[1])
         return not (small or SMALL_CONTACT**2 * self.loads[0, 1] > P)

@@ -21,11 +21,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..body import Body
-from ..cycle import Own
+from ..cycle import Own, contact
 from ..forward import breaks_of
 from ..types import Array, History, Regime, SteadyCycle
 from .elements import Elements, elements_of, mesh, pressures, value_at
-from .path import Path, path, touching
+from .path import Path, path
 from .steps import Interface
 from .zones import permanent, sticking
 
@@ -132,7 +132,7 @@ def history(body: Body, own: Own, f: float, loads: Array, x: Array, tol: float) 
 
     loads: P, M, Q and sigma, one row each.
     """
-    if not np.any(touching(body, own, *loads[:2])[0] > -math.inf) or not f > 0:
+    if not np.any(contact(body, own, loads[0], loads[1], 1.0).a > -math.inf) or not f > 0:
         return None
     solve = partial(_history_on, body, own, f, loads, x)
     found: History = _refined(solve, partial(_compare_instants, f * loads[0]), tol)
@@ -192,7 +192,7 @@ def steady_cycle(
 
     loads: P, M, Q and sigma, one row each; those of the last instant are those of the first.
     """
-    touches = touching(body, own, *loads[:2])[0] > -math.inf
+    touches = contact(body, own, loads[0], loads[1], 1.0).a > -math.inf
     if not (np.all(touches) and np.all(np.isfinite(loads)) and f > 0):
         return None
     found: SteadyCycle = _refined(partial(_cycle_on, body, own, f, loads, x), _compare_rounds, tol)

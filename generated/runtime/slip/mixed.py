@@ -22,9 +22,8 @@ half-cycle has three phases:
 
 Each half-cycle starts from the end of the other one, with the sign of shear reversed.  In phase 1
 the reversed slip on the right therefore leaves 2 f p less the gain, the shear gained since the
-point stuck again; the gain is 2 f p where phase 3 brought the point to the friction
-limit.  The gain is found by iteration, as series of more and more terms, until m and n no longer
-change.
+point stuck again; the gain is 2 f p where phase 3 brought the point to the friction limit.  The
+gain is found by iteration, as series of more and more terms, until m and n no longer change.
 
 The shear traction must not be driven further where it has been at the friction limit since the last
 half-cycle: on the left, and on the right where nothing was gained.  In phase 1 its rate changes
@@ -145,8 +144,8 @@ class _State(NamedTuple):
     """What a half-cycle passes on to the next.
 
     m, n   the permanent stick zone
-    gain   the shear gained since points beyond n began to stick again, up to where they did
-    reach  the slip zone of phase 1 ends here: at the edge, or where the gain is 2 f p from here on
+    gain   the shear gained beyond n since points stuck again, up to the last of them
+    reach  where the slip zone of phase 1 ends: at the edge, or where the gain reaches 2 f p
     """
 
     m: float
