@@ -23,6 +23,7 @@ from generated import (
     wedge,
     wedge_parabola,
 )
+from generated.runtime.types import Contact, Regime
 
 E = 2.0
 R, PHI = 1.5, 0.25
@@ -168,3 +169,21 @@ def test_a_contact_that_ends_at_a_corner_is_found(body: Any, own: Any, corner: f
     ):
         assert np.all(np.abs(found.a - a) <= 2e-14 * (a + c))
         assert np.all(np.abs(found.c - c) <= 2e-14 * (a + c))
+
+
+def test_a_slip_zone_opposite_a_corner_at_the_edge_is_right_or_unsolved() -> None:
+    """The left edge is 1e-17 to 1e-4 of the width beyond the corner at -b, where the pressure is so
+    large that it hardly slips; the right slip zone is d = K_T/(f K_N), and short."""
+    rng, b = np.random.default_rng(5), 0.02
+    own = {"phi": 0.1, "b": b}
+    h = b * 10 ** rng.uniform(-1, 1, 400)
+    a = b + h * 10 ** rng.uniform(-17, -4, 400)
+    c = h - a
+    dQ = 10 ** rng.uniform(-6, -3, 400) * flat_sloped.load(a, c, E_star=E, **own)
+    dsigma = rng.choice([-1, 1], 400) * 10 ** rng.uniform(0.2, 2, 400) * 8 * dQ / (np.pi * h)
+    here = Contact(a, c, np.zeros(400))
+    found = flat_sloped.stick_zone(here, here, dQ, dsigma, f=0.5, E_star=E, **own)
+    first = flat_sloped.slip_zones(a, c, dQ, dsigma, f=0.5, E_star=E, **own).right
+    known = (found.regime == Regime.LARGE) & (first < 3e-3 * h)
+    assert np.count_nonzero(known) > 50
+    assert_allclose((c - found.n)[known], first[known], rtol=0.2, atol=1e-14 * np.max(h))
