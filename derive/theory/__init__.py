@@ -15,5 +15,4 @@ special      terms of g' whose integrals are special functions: one rule for eac
 closed_forms  closed forms from these rules and from the polynomial terms of g'
 stick        full stick and its edge coefficients, the stick margin, and the stick zone
 slip         slip zones as series in the changes in the loads, to any order
-edge         slip and shear traction next to a single edge, from its coefficients
 """

@@ -1,42 +1,39 @@
-"""The matching at an edge, against the two conditions of a contact, and the runtime's formulas."""
+"""The runtime's formulas at an edge against the conditions of a whole contact, theory.slip."""
 
-from sympy import Rational, expand, symbols
+from sympy import Rational, expand, oo, pi, symbols
 
-from derive.symbols import f
-from derive.theory import edge, slip
+from derive.symbols import h
+from derive.theory import slip
 from generated.runtime.edge.near import HalfCycle
 
-K, L, N, K_T, L_T, N_T, D, move = symbols("K L N K_T L_T N_T D move")
+K, L, D, width, rate = symbols("K L D width rate", positive=True)
 
 
 def test_the_slip_zone_is_that_of_a_contact_without_end() -> None:
-    """theory.slip's near over pi sqrt(h), h -> oo: the terms without a power of 1/h."""
-    condition, _ = edge.matched([((f * K, f * L, f * N), D)] * 2, (K_T, L_T, N_T))
-    width = symbols("width", positive=True)
-    whole = expand(slip.near((K, L, N), D, width, 3) / (slip.pi * width ** Rational(1, 2)))
-    limit = sum(term for term in whole.as_ordered_terms() if not term.has(width))
-    held = expand(condition + K_T + L_T * D / 2 + Rational(3, 8) * N_T * D**2)
-    assert expand(held - 2 * f * limit) == 0
+    """theory.slip's near over pi sqrt(h), h -> oo, of both contacts; a moving edge."""
+    half = HalfCycle(2.0, 0.7, 0.2, 0.3, 0.05, 0.5)
+    d = half.zone()
+    whole = expand(slip.near((K, L), D, width, 2) / (pi * width ** Rational(1, 2)))
+    limit = whole.limit(width, oo)
+    contacts = (half.K_N, half.L_N, d), (half.K_N_at(half.da), half.L_N, d - half.da)
+    carried = [float(limit.subs(dict(zip((K, L, D), each, strict=True)))) for each in contacts]
+    assert abs(half.f * sum(carried) - half.K_T - half.L_T * d / 2) < 1e-15
 
 
-def test_the_runtime_obeys_the_condition() -> None:
-    """With K_T > 0 and a moving edge, to rounding; R is the polynomial of the stick zone."""
-    half = HalfCycle(2.0, 0.2, 0.05, 0.7, 0.3, 0.5)
-    before, d = (half.K_N_at(half.da), half.L_N), half.zone()
-    now = (half.f * half.K_N, half.f * half.L_N), D
-    then = [half.f * C for C in before], D - half.da
-    condition, R = edge.matched([now, then], (half.K_T, half.L_T))
-    assert abs(condition.subs(D, d)) < 1e-15
-    assert all(
-        abs(one.subs(D, d) - other) < 1e-14 for one, other in zip(R, half.stuck(), strict=True)
-    )
+def test_a_known_width_adds_its_term_to_the_load_that_drives_slip() -> None:
+    """f K_N d**2/(8 h) in all if the edge stays and the other one does not slip."""
+    (c_1,) = slip.ratios("left", 2)
+    condition = slip.conditions(2)[0].subs({slip.d_right: 0, slip.D_right: 0, c_1: 0})
+    found = condition.series(slip.d_left, 0, 3).removeO().subs(slip.D_left, slip.d_left)
+    L_T = -1 / (2 * slip.width)  # over K_T; K_T is about f K_N d
+    assert expand(found + (L_T / 2 + Rational(1, 8) / slip.width) * slip.d_left**2) == 0
+    half = HalfCycle(2.0, 0.0, 1e-3, 0.0, 0.0, 0.5, 0.7)
+    d = half.zone()
+    assert abs(half.f * half.K_N * (d - d**2 / (8 * 0.7)) - half.K_T) < 1e-18
 
 
 def test_what_a_pressure_was_before_its_edge_advanced() -> None:
-    """K_N = K + L u + N u**2 at an edge that was still u behind, where u**k gives p a share of
-    s**(k + 1/2): int_0^1 v**k/(2 sqrt(1 - v)) dv = 1, 2/3, 8/15."""
-    second, third = Rational(2, 3), Rational(8, 15)
-    now = (K, second * L, third * N)
-    before = (K + L * move + N * move**2, second * (L + 2 * N * move), third * N)
-    pairs = zip(edge.grown(now, move), before, strict=True)
-    assert [expand(a - b) for a, b in pairs] == [0, 0, 0]
+    """K_N falls by 3/2 L_N times the way: the second coefficient of theory.slip, h -> oo."""
+    second = slip.pressure_next(rate, 0, K).subs(h, width).limit(width, oo)
+    half = HalfCycle(2.0, float(second.subs(rate, 1)), 0.2, 0.3, 0.05, 0.5)
+    assert half.K_N_at(0.1) == 2.0 - 0.1
