@@ -2,8 +2,7 @@
 
 plan      chooses how each function is evaluated: formula, quadrature or solver
 program   the steps and outputs of a function, before they are printed as text
-rewrite   closed formulas for floating point: sums over parts of a contact, or rules; compared with
-          the source
+rewrite   closed formulas for floating point: sums over parts of a contact, or rules
 printer   SymPy -> NumPy source
 contract  the functions that every module has
 function  the text of one function that has a formula

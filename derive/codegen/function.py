@@ -19,9 +19,8 @@ from derive.codegen.contract import Function
 from derive.codegen.example import example_of
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import LEAST, MOST, Program
-from derive.codegen.rewrite import prove_equal, stable_program, summed_program
-from derive.command.errors import NotProven
-from derive.proof.points import contacts, loads, numeric
+from derive.codegen.rewrite import stable_program, summed_program
+from derive.proof.points import numeric
 from derive.proof.verdict import Proof, Verdict
 from derive.reading.units import Dimension, dimension_of
 from derive.sheet.formulas import FormulaSheet
@@ -59,20 +58,10 @@ class FunctionText:
         self.program = self._made()
 
     def _made(self) -> Program:
-        """The program of the function; raises NotProven unless it agrees with the sheet."""
-        sheet, function = self.sheet, self.function
-        program = (
-            summed_program(sheet, function.fields)
-            if self._is_summed
-            else stable_program(sheet, self.outputs, self.example)
-        )
-        source = {name: sheet.frame.flat(expr) for name, expr in self.outputs.items()}
-        inverse = P in function.arguments
-        points = loads(sheet, sheet[function.formulas[0]]) if inverse else contacts(sheet)
-        proof = prove_equal(program, source, points)
-        if not proof.holds:
-            raise NotProven(f"{function.name} of {sheet.geometry.name!r}: {proof}")
-        return program
+        """The program of the function."""
+        if self._is_summed:
+            return summed_program(self.sheet, self.function.fields)
+        return stable_program(self.sheet, self.outputs, self.example)
 
     @property
     def _is_summed(self) -> bool:

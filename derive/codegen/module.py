@@ -53,7 +53,7 @@ _TEXTS = {
 def module_text(sheet: FormulaSheet, source: str) -> str:
     """The text of the module of one body; `source` names the file that defines g(x).
 
-    Raises NotProven if any formula of the sheet, or any rewritten form of one, is not proven.
+    Raises NotProven if any formula of the sheet is not proven.
     """
     sheet.demand_proven()
     solved = solved_functions(sheet)

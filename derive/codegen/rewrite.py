@@ -1,7 +1,7 @@
 """Rewrites closed formulas for floating point.
 
 In:  the outputs of one function, in the symbols of the sheet.
-Out: a Program, which is compared with its source to 30 digits before it is used.
+Out: a Program.  `trial` compares what it gives with the sheet.
 
 Each rule is one function, whose docstring states the identity that it uses.  No rule depends on a
 particular geometry.
@@ -10,7 +10,6 @@ particular geometry.
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-import mpmath
 from sympy import (
     Abs,
     Add,
@@ -32,13 +31,12 @@ from sympy import (
 
 from derive.body.piece import vanishes
 from derive.codegen.program import Program
-from derive.proof.points import Point, named, numeric, numeric_by_steps
-from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
+from derive.proof.points import Point, numeric
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import M, P, a, alpha, c, e, h, w, x
 from derive.theory.frame import Frame
 from derive.theory.parts import Definition, parts_of
-from derive.theory.segments import kink_logarithm, written_out
+from derive.theory.segments import kink_logarithm
 
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
@@ -69,22 +67,6 @@ def summed_program(sheet: FormulaSheet, fields: Iterable[tuple[str, str | Symbol
     outputs = {field: sheet[str(name)].computed for field, name in fields}
     program = Program(outputs, parts_of(sheet.frame).definitions)
     return program.ordered().renamed(q.name for q in sheet.geometry.parameters)
-
-
-def prove_equal(program: Program, source: Mapping[str, Expr], points: Iterable[Point]) -> Proof:
-    """Compare the program numerically with the formulas that it was made from."""
-    plain = program.mapped(written_out)
-    steps = [(step.symbol, step.expr) for step in plain.steps]
-    values = {name: numeric_by_steps(steps, expr) for name, expr in plain.outputs.items()}
-    with mpmath.workdps(WORKING):
-        return numerical_proof(
-            "rewritten for floating point",
-            (
-                Comparison(value(point), numeric(source[name])(point), named(point))
-                for point in points
-                for name, value in values.items()
-            ),
-        )
 
 
 # ------------------------------------------------------------------ kinks

@@ -3,8 +3,8 @@
 import ast
 import re
 import warnings
+from collections.abc import Callable, Iterable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,16 +12,20 @@ from sympy import (
     Abs,
     Expr,
     Max,
+    Piecewise,
+    Rational,
     Symbol,
     exp,
     sqrt,
+    tan,
 )
 
-import derive.codegen.function
 from derive import Geometry, parameter, x
 from derive.body.library import load_geometry
 from derive.codegen.example import example_of
+from derive.codegen.function import FunctionText
 from derive.codegen.module import module_text
+from derive.codegen.program import Program
 from derive.codegen.trial import demand_right
 from derive.command.errors import BadName, NotProven
 from derive.command.limit import within
@@ -54,16 +58,48 @@ def test_one_formula_that_is_not_proven_stops_the_module(proof: Proof | None) ->
             module_text(replace(of, formulas=formulas), "hertz.py")
 
 
-def test_a_rewritten_form_that_is_false_stops_the_module(monkeypatch: pytest.MonkeyPatch) -> None:
-    true = derive.codegen.function.stable_program
+FALSE: dict[str, Callable[[Expr], Expr]] = {
+    "another sign": lambda expr: -expr,
+    "wrong in the sixth digit": lambda expr: expr * (1 + Rational(1, 10**6)),
+    "wrong for a > c only": lambda expr: Piecewise((2 * expr, a > c), (expr, True)),
+    "wrong for a < c only": lambda expr: Piecewise((2 * expr, a < c), (expr, True)),
+    "zero": lambda expr: 0 * expr,
+}
+OF_AN_INVERSE = ("another sign", "wrong in the sixth digit", "zero")
 
-    def falsified(*given: Any) -> object:
-        program = true(*given)
-        return replace(program, outputs={n: 2 * v for n, v in program.outputs.items()})
 
-    monkeypatch.setattr(derive.codegen.function, "stable_program", falsified)
-    with pytest.raises(NotProven, match=r"of 'hertz'.*refuted"):
-        module_text(assumed(sheet("hertz")), "hertz.py")
+@pytest.mark.parametrize(
+    ("body", "name", "field", "changes"),
+    [
+        *(("hertz", "K_N", "right", FALSE), ("wedge", "tilt", "", FALSE)),
+        *(("wedge", "pressure", "", FALSE), ("flat_rounded", "moment", "", FALSE)),
+        *(("wedge", "contact", field, OF_AN_INVERSE) for field in ("a", "c", "alpha")),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_a_rewritten_form_that_is_false_is_not_written(
+    body: str, name: str, field: str, changes: Iterable[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    true, of = FunctionText._made, assumed(sheet(body))
+    for what in changes:
+
+        def falsified(self: FunctionText, change: Callable[[Expr], Expr] = FALSE[what]) -> Program:
+            program = true(self)
+            outputs = dict(program.outputs)
+            if self.function.name == name:
+                outputs[field] = change(outputs[field])
+            return replace(program, outputs=outputs)
+
+        monkeypatch.setattr(FunctionText, "_made", falsified)
+        with pytest.raises(NotProven, match=f"of '{body}': the generated code returned"):
+            demand_right(of, module_text(of, f"{body}.py"), STUCK)
+
+
+def test_a_tangent_of_a_parameter_is_a_number() -> None:
+    """Also under a tilt, where the edges hold the tangent of the kink's angle as well."""
+    phi = parameter("phi", "an angle", unit="rad")
+    of = assumed(derive_sheet(Geometry("steep", g=tan(phi / 2) * Abs(x))))
+    demand_right(of, module_text(of, "steep.py"), STUCK)
 
 
 # ------------------------------------------------------------------ header and docstrings
