@@ -8,7 +8,7 @@ the body remain integrals.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 from sympy import (
@@ -23,17 +23,15 @@ from sympy import (
     exp,
     expand,
     factor,
-    pi,
     simplify,
     sinh,
-    sqrt,
 )
 
 from derive.command.limit import LookAtClock
-from derive.symbols import E_star, a, c, h, mid, x
-from derive.theory.algebra import tidy
+from derive.symbols import x
+from derive.theory import equilibrium
+from derive.theory.edges import Edge, pressure_series
 from derive.theory.frame import Frame
-from derive.theory.moments import polynomial_moment
 from derive.theory.special import WEIGHTS, Exponential, Power, Root, Special
 
 
@@ -213,25 +211,19 @@ def _whole(frame: Frame, term: Special, factors: list[Expr]) -> Expr:
 
 
 def _of_polynomials(frame: Frame, pieces: list[Expr], look: LookAtClock) -> dict[str, Expr]:
-    """The contribution of the polynomials to every formula, by angles and roots of the kinks."""
+    """The contribution of the polynomials to every formula: those of a body with their slope."""
     base = pieces[sum(k.kink.side < 0 for k in frame.kinks)]
-    steps = zip(frame.kinks, pairwise(pieces), strict=True)
-    jumps = [expand(q - p if k.kink.side > 0 else p - q) for k, (p, q) in steps]
-    if all(part == 0 for part in (base, *jumps)):
+    steps = zip(frame.slope.kinks, pairwise(pieces), strict=True)
+    kinks = (replace(kink, jump=expand(kink.side * (q - p))) for kink, (p, q) in steps)
+    alone = Frame(replace(frame.slope, base=base, kinks=tuple(kinks)))
+    if not any((base, *(kink.jump for kink in alone.slope.kinks))):
         return dict.fromkeys(WEIGHTS, S.Zero)
-    first, second, third = (polynomial_moment(k, frame, base, jumps) for k in range(3))
-    rates = {"left": -frame.diff(first, a), "right": frame.diff(first, c)}
-    rates_again = {"left": frame.diff(rates["left"], a), "right": frame.diff(rates["right"], c)}
-    found = {
-        "tilt": -first / pi,
-        "load": E_star / 2 * (second - mid * first),
-        "moment": -E_star / 2 * (third - mid * second - h**2 / 8 * first),
-    }
-    for side, rate in rates.items():
-        found[f"K_N_{side}"] = E_star * sqrt(h) / pi * rate
-        both = rate / (2 * sqrt(h)) + 2 * sqrt(h) / 3 * rates_again[side]
-        found[f"L_N_{side}"] = -E_star / pi * both
-    for name, expr in found.items():
+    found = {}
+    for name in ("tilt", "load", "moment"):
         look()
-        found[name] = tidy(expr, frame)
+        found[name] = getattr(equilibrium, name)(alone)
+    for edge in Edge:
+        look()
+        for name, term in zip(("K_N", "L_N"), pressure_series(alone, edge, 2), strict=True):
+            found[f"{name}_{edge.name.lower()}"] = term
     return found

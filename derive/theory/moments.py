@@ -8,7 +8,6 @@ The integrals of the powers obey a single recursion.  From d/ds (s^(k-1) w) =
 Since w vanishes at both edges, only a kink contributes to the bracket.
 """
 
-from collections.abc import Sequence
 from functools import lru_cache
 
 from sympy import Expr, Integer, Poly, S, expand, pi
@@ -49,12 +48,7 @@ def weighted(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
 @lru_cache(maxsize=64)
 def slope_moment(k: int, frame: Frame) -> Expr:
     """I_k of g' alone, without the tilt."""
-    return polynomial_moment(k, frame, frame.slope.base, [kink.kink.jump for kink in frame.kinks])
-
-
-def polynomial_moment(k: int, frame: Frame, base: Expr, jumps: Sequence[Expr]) -> Expr:
-    """I_k of a polynomial, plus that of another one for each kink, over the part where it acts."""
-    total = weighted(x**k * base)
-    for kink, jump in zip(frame.kinks, jumps, strict=True):
-        total += weighted(x**k * jump, kink)
+    total = weighted(x**k * frame.slope.base)
+    for kink in frame.kinks:
+        total += weighted(x**k * kink.kink.jump, kink)
     return total
