@@ -130,10 +130,9 @@ def moment(a: Values, c: Values, *, E_star: Values, L: Values, k: Values) -> Arr
 def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values, k: Values) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*(Integral(g''(xi)*kernel(x, xi), (xi, -a, x)) + Integral(g''(xi)*kernel(x,
-            xi), (xi, x, c)))/pi
-        kernel(x, xi) = log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a +
-            x)*(c - xi)) - sqrt((a + xi)*(c - x)))))/2
+        p = E_star*(Integral(g''(xi)*asinh(sqrt((a + x)*(c - xi)/((a + c)*(-x + xi)))), (xi, x,
+            c)) + Integral(g''(xi)*asinh(sqrt((a + xi)*(c - x)/((a + c)*(x - xi)))), (xi, -a,
+            x)))/pi
         g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
             2)*(k - 1), True))
 

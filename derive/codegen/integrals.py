@@ -6,10 +6,8 @@ Out: the text of the function; for its docstring, the integrals of theory/superp
 """
 
 from collections.abc import Callable, Iterator
-from types import SimpleNamespace
-from typing import Any
 
-from sympy import Expr, Function, Piecewise, factor, oo, simplify
+from sympy import Expr, Function, Piecewise, factor, simplify
 
 from derive.body.piece import Piece
 from derive.codegen.function import FunctionText, by_name
@@ -18,10 +16,7 @@ from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
 from derive.symbols import x
 from derive.theory import superposition
-from derive.theory.edges import Edge
-from derive.theory.superposition import xi
-
-slope, curvature, kernel = map(Function, ("g'", "g''", "kernel"))
+from derive.theory.superposition import curvature, slope, xi
 
 
 class IntegratedText(FunctionText):
@@ -56,29 +51,17 @@ def lines_of(sheet: FormulaSheet, names: tuple[str, ...]) -> Iterator[str]:
     P = E_star*Integral(sqrt((a + xi)*(c - xi))*g''(xi), (xi, -a, c))/2
     g''(xi) = 3*xi**2/L**3
     """
-    formulas = {sheet[name].symbol: integral_of(sheet, name) for name in names}
+    integrals = superposition.formulas(sheet.frame.kinks)
+    formulas = {sheet[name].symbol: integrals[name] for name in names}
     used = {node.func for expr in formulas.values() for node in expr.atoms(Function)}
     pieces = sheet.geometry.slope.pieces
     defined = {
-        kernel(x, xi): superposition.kernel / 2,
         slope(xi): _by_piece(pieces, lambda piece: piece.slope),
         curvature(xi): _by_piece(pieces, lambda piece: piece.curvature),
     }
     held = {call: definition for call, definition in defined.items() if call.func in used}
     for left, right in (formulas | held | sheet.frame.defined_in(*formulas.values())).items():
         yield f"{left} = {text_of(right)}"
-
-
-def integral_of(sheet: FormulaSheet, name: str) -> Expr:
-    """A formula for a body whose curve is a single piece with corners."""
-    curve = SimpleNamespace(slope=slope(x), curvature=curvature(x), lower=-oo, upper=oo)
-    whole: Any = SimpleNamespace(slope=SimpleNamespace(pieces=[curve]), kinks=sheet.frame.kinks)
-    stem, _, side = name.rpartition("_")
-    of_edges = {"K_N": superposition.edge_coefficient, "L_N": superposition.second_coefficient}
-    if stem in of_edges:
-        return of_edges[stem](whole, Edge[side.upper()])
-    expr: Expr = getattr(superposition, name)(whole)
-    return expr.xreplace({superposition.kernel: 2 * kernel(x, xi)})
 
 
 def _by_piece(pieces: tuple[Piece, ...], of: Callable[[Piece], Expr]) -> Expr:

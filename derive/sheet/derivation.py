@@ -6,11 +6,8 @@ Out: FormulaSheet without proofs.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from functools import partial
-from types import ModuleType
 
 from sympy import Expr, Symbol, pi, sqrt
-from sympy.logic.boolalg import Boolean
 from sympy.polys.polyerrors import BasePolynomialError
 
 from derive.body.geometry import Geometry
@@ -25,13 +22,12 @@ from derive.sheet.formulas import (
     tilt_conditions,
 )
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, m, mid, n, x
-from derive.theory import contact_law, equilibrium, slip, stick, superposition
+from derive.theory import contact_law, slip, stick, superposition
 from derive.theory.algebra import tidy
 from derive.theory.closed_forms import NoRule, closed_forms
-from derive.theory.edges import Edge, pressure_series
+from derive.theory.edges import Edge, contact_formula, pressure_series
 from derive.theory.frame import Frame
 from derive.theory.parts import has_parts, parts_of
-from derive.theory.pressure import pressure
 
 Stage = Callable[[FormulaSheet], Iterator[Formula]]
 """Function that derives formulas from those already on a sheet."""
@@ -65,7 +61,7 @@ def derive_sheet(geometry: Geometry) -> FormulaSheet:
 
 def derive_law(geometry: Geometry) -> FormulaSheet:
     """Derive load, moment and tilt, and the contact from the loads where a formula exists."""
-    return _derived(geometry, _LAW if geometry.slope.is_polynomial else (_superposed,))
+    return _derived(geometry, _LAW if geometry.slope.is_polynomial else (_loads,))
 
 
 def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaSheet:
@@ -173,7 +169,7 @@ def _pressure_terms(sheet: FormulaSheet, edge: Edge, order: int) -> list[Expr]:
     """K_N, L_N, ... of a body; if its formulas are integrals, L_N is the last one known."""
     if sheet.geometry.slope.is_polynomial:
         return pressure_series(sheet.frame, edge, order)
-    names = [f"{name}_{edge.name.lower()}" for name, *_ in _EDGE_COEFFICIENTS]
+    names = [f"{name}_{edge.name.lower()}" for name in ("K_N", "L_N")]
     if order > len(names):
         known = f"the highest known order for {sheet.geometry.name!r} is {len(names)}"
         raise ValueError(f"{known}; got {order}")
@@ -203,41 +199,40 @@ def _by_parts(sheet: FormulaSheet) -> FormulaSheet:
     return replace(sheet, formulas=formulas)
 
 
-def _superposed(sheet: FormulaSheet) -> Iterator[Formula]:
-    """Loads, tilt, pressure and edge coefficients of any profile, as integrals of its curvature."""
-    frame, source = sheet.frame, f"superposition of wedges; {_CLASSIC}"
-    yield from _loads(frame, superposition, source, source, source)
-    yield _pressure_formula(frame, superposition.pressure(frame), source)
-    for name, at_edge, unit, meaning in _EDGE_COEFFICIENTS:
-        derive = partial(at_edge, frame)
-        yield from _at_both_edges(name, derive, meaning, unit, source, contact_conditions(frame))
-
-
-def _equilibrium(sheet: FormulaSheet) -> Iterator[Formula]:
-    sources = "I_0 = 0", "P = (E*/2) I_1", "M = -(E*/2) (I_2 - mid I_1)"
-    yield from _loads(sheet.frame, equilibrium, *(f"{source}; {_CLASSIC}" for source in sources))
-
-
-def _loads(frame: Frame, theory: ModuleType, *sources: str) -> Iterator[Formula]:
-    """Tilt, load and moment by the functions of these names in a module of the theory."""
-    conditions = contact_conditions(frame)
-    rows = (
-        ("tilt", alpha, "tilt of this contact", "rad"),
-        ("load", P, "normal load", "N/m"),
-        ("moment", M, "moment", "N"),
-    )
-    for (name, symbol, meaning, unit), source in zip(rows, sources, strict=True):
-        expr = getattr(theory, name)(frame)
+def _loads(sheet: FormulaSheet) -> Iterator[Formula]:
+    conditions = contact_conditions(sheet.frame)
+    for name, symbol, meaning, unit, route in (
+        ("tilt", alpha, "tilt of this contact", "rad", "I_0 = 0"),
+        ("load", P, "normal load", "N/m", "P = (E*/2) I_1"),
+        ("moment", M, "moment", "N", "M = -(E*/2) (I_2 - mid I_1)"),
+    ):
+        expr, source = _of_contact(sheet, name, f"{route}; {_CLASSIC}")
         yield Formula(name, symbol, (a, c), expr, meaning, unit, source, conditions)
 
 
 def _pressure(sheet: FormulaSheet) -> Iterator[Formula]:
-    yield _pressure_formula(sheet.frame, pressure(sheet.frame), _CLASSIC)
+    expr, source = _of_contact(sheet, "pressure", _CLASSIC)
+    inside, p = inside_contact(sheet.frame, x), Symbol("p")
+    yield Formula("pressure", p, (x, a, c), expr, "contact pressure", "Pa", source, inside)
 
 
-def _pressure_formula(frame: Frame, expr: Expr, source: str) -> Formula:
-    inside, p = inside_contact(frame, x), Symbol("p")
-    return Formula("pressure", p, (x, a, c), expr, "contact pressure", "Pa", source, inside)
+def _edges(sheet: FormulaSheet) -> Iterator[Formula]:
+    conditions = contact_conditions(sheet.frame)
+    expanded = f"expansion of p(x); cf. eqs. (8), (9), {_PAPER}"
+    for stem, power, unit in (("K_N", "sqrt(s)", "Pa/sqrt(m)"), ("L_N", "s**(3/2)", "Pa/m**(3/2)")):
+        for side in _SIDES:
+            name, meaning = f"{stem}_{side}", f"coefficient of {power} in p at the {side} edge"
+            expr, source = _of_contact(sheet, name, expanded)
+            yield Formula(name, Symbol(name), (a, c), expr, meaning, unit, source, conditions)
+
+
+def _of_contact(sheet: FormulaSheet, name: str, closed: str) -> tuple[Expr, str]:
+    """A formula and its source: `closed`, or that of an integral if g' is not a polynomial."""
+    frame = sheet.frame
+    if frame.slope.is_polynomial:
+        return contact_formula(frame, name), closed
+    integral = superposition.formulas(frame.kinks)[name]
+    return superposition.by_pieces(integral, frame.slope), f"superposition of wedges; {_CLASSIC}"
 
 
 def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
@@ -254,182 +249,101 @@ def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
         yield Formula(name, Symbol(symbol), (a, c), expr, meaning, unit, source, conditions)
 
 
-def _edges(sheet: FormulaSheet) -> Iterator[Formula]:
-    conditions = contact_conditions(sheet.frame)
-    series = {edge: pressure_series(sheet.frame, edge, 2) for edge in Edge}
-    source = f"expansion of p(x); cf. eqs. (8), (9), {_PAPER}"
-    for order, (name, _, unit, meaning) in enumerate(_EDGE_COEFFICIENTS):
-        terms = {edge: series[edge][order] for edge in Edge}
-        yield from _at_both_edges(name, terms.__getitem__, meaning, unit, source, conditions)
-
-
-_EDGE_COEFFICIENTS = (
-    (
-        *("K_N", superposition.edge_coefficient, "Pa/sqrt(m)"),
-        "coefficient of sqrt(s) in p at the {} edge",
-    ),
-    (
-        *("L_N", superposition.second_coefficient, "Pa/m**(3/2)"),
-        "coefficient of s**(3/2) in p at the {} edge",
-    ),
-)
-
-
-def _at_both_edges(
-    name: str,
-    derive: Callable[[Edge], Expr],
-    meaning: str,
-    unit: str,
-    source: str,
-    conditions: tuple[Boolean, ...],
-    arguments: tuple[Symbol, ...] = (a, c),
-    letter: str = "",
-) -> Iterator[Formula]:
-    """A formula for each edge; `meaning` has {} in the place of its side."""
-    for edge in Edge:
-        side = edge.name.lower()
-        symbol, words = Symbol(f"{letter or name}_{side}"), meaning.format(side)
-        expr = derive(edge)
-        yield Formula(f"{name}_{side}", symbol, arguments, expr, words, unit, source, conditions)
-
-
 def _rates(sheet: FormulaSheet) -> Iterator[Formula]:
     """Rates of the loads and the tilt as one edge moves: for any body, those of a flat punch."""
     conditions = contact_conditions(sheet.frame)
     source = "a moving edge adds sqrt((a + x)/(c - x)), or its mirror image, to the pressure"
-    for edge, symbol, sense in ((Edge.LEFT, a, -1), (Edge.RIGHT, c, 1)):
-        force = pi * sqrt(h) / 4 * sheet[f"K_N_{edge.name.lower()}"].expr
-        for of, meaning, unit, expr in (
-            ("load", "load", "Pa", force),
-            ("moment", "moment", "N/m", -force * (mid + sense * h / 4)),
-            ("tilt", "tilt", "1/m", -sense * 4 * force / (pi * E_star * h)),
+    for side, edge, sense in zip(_SIDES, (a, c), (-1, 1), strict=True):
+        force = pi * sqrt(h) / 4 * sheet[f"K_N_{side}"].expr
+        for of, unit, rate in (
+            ("load", "Pa", force),
+            ("moment", "N/m", -force * (mid + sense * h / 4)),
+            ("tilt", "1/m", -sense * 4 * force / (pi * E_star * h)),
         ):
-            yield Formula(
-                f"{of}_by_{symbol}",
-                Symbol(f"{sheet[of].symbol}_{symbol}"),
-                (a, c),
-                tidy(expr, sheet.frame),
-                f"rate of change of the {meaning} with {symbol} alone",
-                unit,
-                source,
-                conditions,
-            )
+            name, symbol = f"{of}_by_{edge}", Symbol(f"{sheet[of].symbol}_{edge}")
+            meaning, expr = f"rate of change of the {of} with {edge} alone", tidy(rate, sheet.frame)
+            yield Formula(name, symbol, (a, c), expr, meaning, unit, source, conditions)
 
 
 def _stick(sheet: FormulaSheet) -> Iterator[Formula]:
+    always, sheared = (h > 0,), (a, c, dQ, dsigma)
+    change, inside = stick.full_stick_change(), (*always, x > -a, x < c)
+    meaning = "change in the shear traction under full stick"
     source = "similar bodies, full stick: (1/pi) PV int dq/(x - xi) dxi = dsigma/4, int dq = dQ"
-    conditions = contact_conditions(sheet.frame)[:1]
-    inside = (*conditions, x > -a, x < c)
-    arguments = (a, c, dQ, dsigma)
-    yield Formula(
-        "full_stick_change",
-        Symbol("dq"),
-        (x, *arguments),
-        stick.full_stick_change(),
-        "change in the shear traction under full stick",
-        "Pa",
-        source,
-        inside,
-    )
+    name, dq = "full_stick_change", Symbol("dq")
+    yield Formula(name, dq, (x, *sheared), change, meaning, "Pa", source, inside)
     expanded = f"expansion of full_stick_change; cf. eq. (32), {_PAPER}"
-    coefficient = "coefficient of 1/sqrt(s) in the full-stick change at the {} edge"
-    yield from _at_both_edges(
-        "K_T", stick.K_T, coefficient, "Pa*sqrt(m)", expanded, conditions, arguments
-    )
-    coefficient = coefficient.replace("1/sqrt(s)", "sqrt(s)")
-    yield from _at_both_edges(
-        "L_T", stick.L_T, coefficient, "Pa/sqrt(m)", expanded, conditions, arguments
-    )
-    yield from _at_both_edges(
-        "stick_margin",
-        stick.stick_margin,
-        "margin against slip at the {} edge as all loads begin to change",
-        "N/m",
-        "an edge that moves by d leaves dq = 2 K_T sqrt(s)/d; stick needs |dq| < f K_N sqrt(s)",
-        conditions,
-        (a, c, dP, dM, dQ, dsigma),
-        "S",
-    )
+    moving = "an edge that moves by d leaves dq = 2 K_T sqrt(s)/d; stick needs |dq| < f K_N sqrt(s)"
+    in_series = "coefficient of {} in the full-stick change at the {{}} edge".format
+    margin = "margin against slip at the {} edge as all loads begin to change"
+    loads = (a, c, dP, dM, dQ, dsigma)
+    for name, derive, words, unit, source, arguments, letter in (
+        ("K_T", stick.K_T, in_series("1/sqrt(s)"), "Pa*sqrt(m)", expanded, sheared, "K_T"),
+        ("L_T", stick.L_T, in_series("sqrt(s)"), "Pa/sqrt(m)", expanded, sheared, "L_T"),
+        ("stick_margin", stick.stick_margin, margin, "N/m", moving, loads, "S"),
+    ):
+        for edge, side in zip(Edge, _SIDES, strict=True):
+            symbol, meaning = Symbol(f"{letter}_{side}"), words.format(side)
+            expr, key = derive(edge), f"{name}_{side}"
+            yield Formula(key, symbol, arguments, expr, meaning, unit, source, always)
 
 
 def _slip(sheet: FormulaSheet) -> Iterator[Formula]:
-    def zone(edge: Edge) -> Expr:
-        return slip.slip_zone(stick.pull(edge), sheet[f"K_N_{edge.name.lower()}"].expr)
+    conditions = contact_conditions(sheet.frame)
+    source = f"dq bounded at both ends of the stick zone, first order; cf. {_PAPER}, section 3"
+    for edge, side in zip(Edge, _SIDES, strict=True):
+        zone = slip.slip_zone(stick.pull(edge), sheet[f"K_N_{side}"].expr)
+        meaning = f"slip zone at the {side} edge under constant normal load, to first order"
+        symbol, arguments = Symbol(f"d_{side}"), (a, c, dQ, dsigma)
+        yield Formula(f"slip_{side}", symbol, arguments, zone, meaning, "m", source, conditions)
 
-    yield from _at_both_edges(
-        "slip",
-        zone,
-        "slip zone at the {} edge under constant normal load, to first order",
-        "m",
-        f"dq bounded at both ends of the stick zone, first order; cf. {_PAPER}, section 3",
-        contact_conditions(sheet.frame),
-        (a, c, dQ, dsigma),
-        "d",
-    )
+
+def _inverses(sheet: FormulaSheet) -> Iterator[Formula]:
+    tilt, load, moment = (sheet[name].expr for name in ("tilt", "load", "moment"))
+    for name, given, invert, conditions in (
+        ("contact", M, contact_law.contact_from_moment, load_conditions),
+        ("contact_at_tilt", alpha, contact_law.contact_from_tilt, tilt_conditions),
+    ):
+        found = invert(sheet.frame, tilt, load, moment)
+        if found is None:
+            continue
+        source = "inverse of load(a, c), moment(a, c) and tilt(a, c)"
+        loads = f"load and {'moment' if given == M else 'tilt'}"
+        for symbol, words, unit in (
+            *((a, "left edge", "m"), (c, "right edge", "m")),
+            *((alpha, "tilt", "rad"), (M, "moment", "N")),
+        ):
+            if symbol != given:
+                expr, meaning = getattr(found, symbol.name), f"{words} from {loads}"
+                held = conditions(sheet.frame)
+                key, arguments = f"{name}_{symbol}", (P, given)
+                yield Formula(key, symbol, arguments, expr, meaning, unit, source, held)
 
 
 def _moderate(sheet: FormulaSheet) -> Iterator[Formula]:
     """The stick zone as a contact patch, if contact_at_tilt is a formula."""
     if "contact_at_tilt_a" not in sheet:
         return
-    for symbol, edge, side in ((m, "a", "left"), (n, "c", "right")):
+    source = "f (p1 + p2) minus 2 f times the pressure of a contact patch of the same body"
+    for symbol, edge, side in zip((m, n), (a, c), _SIDES, strict=True):
         inverse = sheet[f"contact_at_tilt_{edge}"]
-        yield Formula(
-            f"stick_{symbol}",
-            symbol,
-            (P, alpha, dQ, dsigma),
-            stick.moderate(inverse.expr),
-            f"{side} end of the stick zone under moderate tension; P, alpha: cycle means",
-            "m",
-            "f (p1 + p2) minus 2 f times the pressure of a contact patch of the same body",
-            tuple(stick.moderate(condition) for condition in inverse.conditions),
-        )
+        conditions = tuple(map(stick.moderate, inverse.conditions))
+        meaning = f"{side} end of the stick zone under moderate tension; P, alpha: cycle means"
+        expr, arguments = stick.moderate(inverse.expr), (P, alpha, dQ, dsigma)
+        yield Formula(f"stick_{symbol}", symbol, arguments, expr, meaning, "m", source, conditions)
 
 
-def _inverses(sheet: FormulaSheet) -> Iterator[Formula]:
-    tilt, load, moment = (sheet[name].expr for name in ("tilt", "load", "moment"))
-    at_moment = contact_law.contact_from_moment(sheet.frame, tilt, load, moment)
-    if at_moment is not None:
-        yield from _inverse("contact", (P, M), at_moment, load_conditions(sheet.frame))
-    at_tilt = contact_law.contact_from_tilt(sheet.frame, tilt, load, moment)
-    if at_tilt is not None:
-        yield from _inverse("contact_at_tilt", (P, alpha), at_tilt, tilt_conditions(sheet.frame))
-
-
-def _inverse(
-    name: str,
-    given: tuple[Symbol, ...],
-    found: contact_law.Inverse,
-    conditions: tuple[Boolean, ...],
-) -> Iterator[Formula]:
-    loads = " and ".join({P: "load", M: "moment", alpha: "tilt"}[symbol] for symbol in given)
-    for symbol, expr, meaning, unit in (
-        (a, found.a, "left edge", "m"),
-        (c, found.c, "right edge", "m"),
-        (alpha, found.alpha, "tilt", "rad"),
-        (M, found.M, "moment", "N"),
-    ):
-        if symbol not in given:
-            yield Formula(
-                f"{name}_{symbol}",
-                symbol,
-                given,
-                expr,
-                f"{meaning} from {loads}",
-                unit,
-                "inverse of load(a, c), moment(a, c) and tilt(a, c)",
-                conditions,
-            )
-
+_SIDES = ("left", "right")
+"""The edges in the order of Edge, as names contain them."""
 
 _CLOSED = (
-    *(_equilibrium, _pressure, _edges, _contact_law, _rates),
+    *(_loads, _pressure, _edges, _contact_law, _rates),
     *(_stick, _slip, _inverses, _moderate),
 )
 """Stages for a body whose integrals are elementary."""
 
-_LAW = (_equilibrium, _inverses)
+_LAW = (_loads, _inverses)
 """Stages of the contact law alone."""
 
-_SUPERPOSED = (_superposed, _stick, _slip)
+_SUPERPOSED = (_loads, _pressure, _edges, _stick, _slip)
 """Stages for any other body."""

@@ -29,8 +29,7 @@ from sympy import (
 
 from derive.command.limit import LookAtClock
 from derive.symbols import x
-from derive.theory import equilibrium
-from derive.theory.edges import Edge, pressure_series
+from derive.theory.edges import contact_formula
 from derive.theory.frame import Frame
 from derive.theory.special import WEIGHTS, Exponential, Power, Root, Special
 
@@ -219,11 +218,7 @@ def _of_polynomials(frame: Frame, pieces: list[Expr], look: LookAtClock) -> dict
     if not any((base, *(kink.jump for kink in alone.slope.kinks))):
         return dict.fromkeys(WEIGHTS, S.Zero)
     found = {}
-    for name in ("tilt", "load", "moment"):
+    for name in WEIGHTS:
         look()
-        found[name] = getattr(equilibrium, name)(alone)
-    for edge in Edge:
-        look()
-        for name, term in zip(("K_N", "L_N"), pressure_series(alone, edge, 2), strict=True):
-            found[f"{name}_{edge.name.lower()}"] = term
+        found[name] = contact_formula(alone, name)
     return found

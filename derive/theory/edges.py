@@ -8,13 +8,15 @@ each logarithm is the integral of a binomial series, and no limit is needed.
 """
 
 from enum import Enum
+from functools import lru_cache
 
 from sympy import Expr, Integer, Poly, Rational, S, binomial, cancel, pi, sqrt
 
 from derive.symbols import E_star, a, c, h, s, x
 from derive.theory.algebra import tidy
+from derive.theory.equilibrium import load, moment, tilt
 from derive.theory.frame import Frame, KinkFrame
-from derive.theory.pressure import smooth_part
+from derive.theory.pressure import pressure, smooth_part
 
 
 class Edge(Enum):
@@ -34,6 +36,17 @@ class Edge(Enum):
         return int(self.value[1])
 
 
+def contact_formula(frame: Frame, name: str) -> Expr:
+    """Tilt, load, moment, pressure, or a coefficient such as K_N_left, if g' is a polynomial."""
+    for edge in Edge:
+        names = [f"{stem}_{edge.name.lower()}" for stem in ("K_N", "L_N")]
+        if name in names:
+            return pressure_series(frame, edge, 2)[names.index(name)]
+    theory = {"pressure": pressure, "tilt": tilt, "load": load, "moment": moment}
+    return theory[name](frame)
+
+
+@lru_cache(maxsize=16)
 def pressure_series(frame: Frame, edge: Edge, terms: int) -> list[Expr]:
     """[K_N, L_N, ...], where p = sqrt(s) (K_N + L_N s + ...) at a distance s from `edge`."""
     at = edge.position + edge.inward * s

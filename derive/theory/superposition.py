@@ -4,7 +4,8 @@ A corner at s where g' rises by J contributes the pressure (E*/pi) J L(x, s).  A
 continuous row of corners with J = g''(s) ds.  With w = sqrt((a + xi)(c - xi)),
 
     P = (E*/2) int g'' w dxi,     M = -(E*/4) int g'' w (xi + mid) dxi,
-    K_right = (E*/(pi sqrt(h))) int g'' w/(c - xi) dxi,     K_left likewise with (a + xi).
+    K_right = (E*/(pi sqrt(h))) int g'' w/(c - xi) dxi,     K_left likewise with (a + xi),
+    L(x, xi) = asinh sqrt((a + xi)(c - x)/(h (x - xi))) for xi < x, its mirror image for xi > x.
 
 For a convex body, nothing is subtracted in P, p and K.  The second coefficient is a finite part,
 
@@ -14,103 +15,111 @@ For a convex body, nothing is subtracted in P, p and K.  The second coefficient 
 whose first term is that of a parabola.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from sympy import Abs, Expr, Integral, Max, Min, Piecewise, Rational, S, Symbol, log, oo, pi, sqrt
+from sympy import (
+    Add,
+    Expr,
+    Function,
+    Integral,
+    Max,
+    Min,
+    Piecewise,
+    Rational,
+    S,
+    Symbol,
+    asinh,
+    oo,
+    pi,
+    sqrt,
+)
 
-from derive.body.piece import Piece
+from derive.body.profile import Slope
 from derive.symbols import E_star, a, c, h, mid, x
 from derive.theory.edges import Edge
-from derive.theory.frame import Frame, KinkFrame
+from derive.theory.frame import KinkFrame
 
 xi = Symbol("xi", real=True)
 """The variable of integration; x is the point at which the pressure is computed."""
 
+slope, curvature = Function("g'"), Function("g''")
+
 root = sqrt((a + xi) * (c - xi))
 """w at xi."""
 
-_u, _v = sqrt((c - xi) * (a + x)), sqrt((a + xi) * (c - x))
 
-kernel = log(Abs((_u + _v) / (_u - _v)))
-"""2 L of a corner at xi."""
+def formulas(kinks: Sequence[KinkFrame] = ()) -> dict[str, Expr]:
+    """All formulas for any profile with these kinks, by their names on the sheet.
 
-
-def tilt(frame: Frame) -> Expr:
-    """alpha from I_0 = 0."""
-    return -_over(frame, lambda piece: piece.slope.subs(x, xi) / root) / pi
-
-
-def load(frame: Frame) -> Expr:
-    """(E*/2) int g'' w dxi."""
-    return E_star / 2 * _pressed(frame, root, lambda k: k.w)
-
-
-def moment(frame: Frame) -> Expr:
-    """-(E*/4) int g'' w (xi + mid) dxi."""
-    return -E_star / 4 * _pressed(frame, root * (xi + mid), lambda k: k.w * (k.kink.position + mid))
-
-
-def pressure(frame: Frame) -> Expr:
-    """(E*/pi) int g'' L dxi, split at x, where L has a logarithmic singularity."""
-    left = _pressed(frame, kernel / 2, lambda k: k.L, high=x)
-    return E_star / pi * (left + _pressed(frame, kernel / 2, lambda k: S.Zero, low=x))
+    The integral of the pressure is split at x, where L has a logarithmic singularity.
+    """
+    before = asinh(sqrt((a + xi) * (c - x) / (h * (x - xi))))
+    behind = asinh(sqrt((c - xi) * (a + x) / (h * (xi - x))))
+    curved = _over(curvature(xi) * before, high=x) + _over(curvature(xi) * behind, low=x)
+    found = {
+        "tilt": -_over(slope(xi) / root) / pi,
+        "load": E_star / 2 * _pressed(lambda s: S.One, kinks),
+        "moment": -E_star / 4 * _pressed(lambda s: s + mid, kinks),
+        "pressure": E_star / pi * (curved + _corners(lambda k: k.L, kinks)),
+    }
+    for edge in Edge:
+        side = edge.name.lower()
+        found[f"K_N_{side}"], found[f"L_N_{side}"] = _at_edge(edge, kinks)
+    return found
 
 
-def edge_coefficient(frame: Frame, edge: Edge) -> Expr:
-    """K_N at one edge."""
-    total = _pressed(frame, root / _to(edge, xi), lambda k: k.w / _to(edge, k.kink.position))
-    return E_star / (pi * sqrt(h)) * total
+def _at_edge(edge: Edge, kinks: Sequence[KinkFrame]) -> tuple[Expr, Expr]:
+    """K_N and L_N."""
+    here = curvature(edge.position)
 
-
-def second_coefficient(frame: Frame, edge: Edge) -> Expr:
-    """L_N at one edge."""
-    here = _curvature_at(frame, edge)
+    def to(place: Expr) -> Expr:
+        return c - place if edge is Edge.RIGHT else a + place
 
     def weight(place: Expr) -> Expr:
-        return (2 * h + _to(edge, place)) / _to(edge, place) ** 2
+        return (2 * h + to(place)) / to(place) ** 2
 
-    total = _over(frame, lambda p: (p.curvature.subs(x, xi) - here) * root * weight(xi))
-    total += _steps(frame, lambda k: k.w * weight(k.kink.position))
-    return E_star * (total / (6 * pi * h ** Rational(3, 2)) - here / (4 * sqrt(h)))
-
-
-def _to(edge: Edge, place: Expr) -> Expr:
-    """Distance from an edge to a point."""
-    return c - place if edge is Edge.RIGHT else a + place
+    first = E_star / (pi * sqrt(h)) * _pressed(lambda s: 1 / to(s), kinks)
+    others = _over((curvature(xi) - here) * root * weight(xi))
+    others += _corners(lambda k: k.w * weight(k.kink.position), kinks)
+    return first, E_star * (others / (6 * pi * h ** Rational(3, 2)) - here / (4 * sqrt(h)))
 
 
-def _curvature_at(frame: Frame, edge: Edge) -> Expr:
-    """g'' at an edge."""
-    *others, last = frame.slope.pieces
-    place = edge.position
-    branches = [(p.curvature.subs(x, place), place < p.upper) for p in others]
-    return Piecewise(*branches, (last.curvature.subs(x, place), True))
+def _pressed(weight: Callable[[Expr], Expr], kinks: Sequence[KinkFrame]) -> Expr:
+    """int g'' w weight dxi, plus the corners' contributions."""
+    corners = _corners(lambda k: k.w * weight(k.kink.position), kinks)
+    return _over(curvature(xi) * root * weight(xi)) + corners
 
 
-def _pressed(
-    frame: Frame,
-    weight: Expr,
-    at: Callable[[KinkFrame], Expr],
-    low: Expr = -a,
-    high: Expr = c,
-) -> Expr:
-    """int g'' weight dxi from low to high, plus the corners' contributions."""
-    curved = _over(frame, lambda p: p.curvature.subs(x, xi) * weight, low, high)
-    return curved + _steps(frame, at)
+def _over(density: Expr, low: Expr = -a, high: Expr = c) -> Expr:
+    return Integral(density, (xi, low, high))
 
 
-def _steps(frame: Frame, at: Callable[[KinkFrame], Expr]) -> Expr:
-    """The sum of the corners' jumps, each times a weight."""
-    return sum((k.kink.step * at(k) for k in frame.kinks if k.kink.is_corner), S.Zero)
+def _corners(at: Callable[[KinkFrame], Expr], kinks: Sequence[KinkFrame]) -> Expr:
+    """The sum of the jumps of g', each times a weight."""
+    return Add(*(k.kink.step * at(k) for k in kinks if k.kink.is_corner))
 
 
-def _over(frame: Frame, integrand: Callable[[Piece], Expr], low: Expr = -a, high: Expr = c) -> Expr:
-    """An integral over all pieces, each limited to the interval from low to high."""
+def by_pieces(expr: Expr, of: Slope) -> Expr:
+    """The expression with g' and g'' of a body: an integral over each piece that is not zero."""
+    *others, last = of.pieces
+    at_edges = {}
+    for edge in Edge:
+        place = edge.position
+        branches = [(p.curvature.subs(x, place), place < p.upper) for p in others]
+        at_edges[curvature(place)] = Piecewise(*branches, (last.curvature.subs(x, place), True))
+    expr = expr.xreplace(at_edges)
+    return expr.xreplace({over: _over_pieces(over, of) for over in expr.atoms(Integral)})
+
+
+def _over_pieces(over: Integral, of: Slope) -> Expr:
+    """An integral over all pieces, each limited to its interval."""
+    ((_, low, high),) = over.limits
     total = S.Zero
-    for piece in frame.slope.pieces:
+    for piece in of.pieces:
         start = low if piece.lower == -oo else Max(low, Min(piece.lower, high))
         end = high if piece.upper == oo else Max(low, Min(piece.upper, high))
-        value = integrand(piece)
+        held = {slope(xi): piece.slope.subs(x, xi), curvature(xi): piece.curvature.subs(x, xi)}
+        value = over.function.xreplace(held)
         if value != 0:
             total += Integral(value, (xi, start, end))
     return total

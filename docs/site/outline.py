@@ -4,29 +4,26 @@ pages.py prints them.  tests/test_site.py inserts a body and compares them with 
 """
 
 import re
-from types import SimpleNamespace
 
-from sympy import Expr, Function, Integral, S, Symbol, oo, pi, sqrt, symbols
+from sympy import Expr, Function, Integral, S, Symbol, pi, sqrt, symbols
 
 from derive import symbols as theory
 from derive.reading.improper import PrincipalValue
 from derive.sheet.notation import latex_of
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, f, m, n, s, x
 from derive.theory import slip, stick, superposition
-from derive.theory.superposition import xi
+from derive.theory.superposition import slope, xi
 
 p, p_1, p_2, p_s = map(Function, ("p", "p_1", "p_2", "p_s"))
 w, F, left_of, dq = map(Function, ("w", "F", "a", r"\Delta q"))
-slope, curvature = map(Function, ("g'", "g''"))
 
 I_0, I_1, I_2, I_k, k, b, first, d = symbols("I_0 I_1 I_2 I_k k b c_x d", real=True)
 h, mid, kappa = Symbol("h", positive=True), Symbol("mid"), Symbol("kappa")
 K_N, K_N_left, K_N_right, K_T = symbols("K_N K_N_left K_N_right K_T", real=True)
 P_prime, a_prime, P_s, alpha_s = symbols("P_prime a_prime P_s alpha_s", real=True)
 
-_PIECE = SimpleNamespace(lower=-oo, upper=oo, slope=slope(x), curvature=curvature(x))
-ANY = SimpleNamespace(kinks=(), slope=SimpleNamespace(pieces=(_PIECE,)))
-"""A frame for any profile without a kink."""
+_SMOOTH = superposition.formulas()
+"""The formulas of any profile without a kink."""
 
 
 def _slipped(weight: Expr) -> Expr:
@@ -47,9 +44,9 @@ EQUATIONS: dict[str, tuple[tuple[Expr, Expr], ...]] = {
     ),
     "moments": ((I_k, Integral(s**k * _STRAIN / w(s), (s, -a, c))),),
     "equilibrium": ((I_0, S.Zero), (P, E_star / 2 * I_1), (M, -E_star / 2 * (I_2 - mid * I_1))),
-    "tilt": ((alpha, superposition.tilt(ANY)),),
+    "tilt": ((alpha, _SMOOTH["tilt"]),),
     "resultants": ((P, Integral(p(x), (x, -a, c))), (M, -Integral(x * p(x), (x, -a, c)))),
-    "by_parts": ((P, superposition.load(ANY)), (M, superposition.moment(ANY))),
+    "by_parts": ((P, _SMOOTH["load"]), (M, _SMOOTH["moment"])),
     "punches": (
         (p(x), Integral(F(b) / sqrt((left_of(b) + x) * (b - x)), (b, first, c))),
         (F(c), P_prime / pi),
