@@ -78,7 +78,7 @@ def cuts_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
     """
     cancelling, pieces = cancels(slope), []
     for piece in slope.pieces:
-        places = _level_points(piece) if cancelling else _beside_singularities(piece, slope)
+        places = _level_points(piece, slope) if cancelling else _beside_singularities(piece, slope)
         for part in _cut(piece, *places):
             pieces += _cut(part, _ORIGIN) if _is_level(part, slope) else [part]
     if len(pieces) == 1:
@@ -111,7 +111,7 @@ def _beside_singularities(piece: Piece, slope: Slope) -> list[Expr]:
     return sorted((p for p in beside if lies_in(p, piece, slope.domain)), key=str)[:1]
 
 
-def _level_points(piece: Piece) -> list[Expr]:
+def _level_points(piece: Piece, slope: Slope) -> list[Expr]:
     """Points inside a piece at which a factor of g'' is zero or smallest, in order of position.
 
     Only linear and quadratic factors are considered, because the roots of other factors have no
@@ -120,24 +120,12 @@ def _level_points(piece: Piece) -> list[Expr]:
     points: list[Expr] = []
     _, factors = factor_list(piece.curvature, x)
     for factor in (Poly(factor, x) for factor, _ in factors):
-        if factor.degree() not in (1, 2):
-            continue
-        leading, next_to_it, *_ = factor.all_coeffs()
-        point = simplify(-next_to_it / (factor.degree() * leading))
-        ends = [piece.lower, *points, piece.upper]
-        later = [_follows(end, point) for end in ends]
-        sooner = [_follows(point, end) for end in ends]
-        if all(up or down for up, down in zip(later, sooner, strict=True)) and later[0]:
-            at = sum(later) - 1
-            if sooner[-1]:
-                points.insert(at, point)
+        if factor.degree() in (1, 2):
+            leading, next_to_it, *_ = factor.all_coeffs()
+            point = simplify(-next_to_it / (factor.degree() * leading))
+            gaps = [simplify(point - other) for other in points]
+            if lies_in(point, piece, slope.domain) and all(
+                g.is_positive or g.is_negative for g in gaps
+            ):
+                points.insert(sum(bool(gap.is_positive) for gap in gaps), point)
     return points
-
-
-def _follows(first: Expr, second: Expr) -> bool:
-    """Whether the second point is known to lie to the right of the first."""
-    if first == -oo or second == oo:
-        return True
-    if first == oo or second == -oo:
-        return False
-    return bool(simplify(second - first).is_positive)

@@ -16,27 +16,16 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from sympy import (
-    Abs,
     And,
     Basic,
     Eq,
     Expr,
-    Function,
     Gt,
-    Integral,
     Max,
     Min,
     NumberSymbol,
-    Piecewise,
     S,
     Symbol,
-    exp,
-    log,
-)
-from sympy.functions.elementary.hyperbolic import HyperbolicFunction, InverseHyperbolicFunction
-from sympy.functions.elementary.trigonometric import (
-    InverseTrigonometricFunction,
-    TrigonometricFunction,
 )
 from sympy.printing.c import C99CodePrinter
 from sympy.printing.codeprinter import CodePrinter
@@ -52,12 +41,6 @@ from derive.command.errors import NoSuchName
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import M, P, a, c, e, x
 from derive.theory.parts import Definition
-
-_ELEMENTARY = (
-    *(exp, log, Abs, Max, Min, Piecewise),
-    *(TrigonometricFunction, InverseTrigonometricFunction),
-    *(HyperbolicFunction, InverseHyperbolicFunction),
-)
 
 _VALUE = "value"
 """The name of a result, in languages in which a function must name it."""
@@ -115,7 +98,7 @@ def code_of(sheet: FormulaSheet, language: str, given: str = "") -> str:
     """
     spoken, geometry = LANGUAGES[language], sheet.geometry
     formulas = {name: function for function in CONTRACT for name in function.formulas}
-    closed = {n: f for n, f in formulas.items() if n in sheet and _is_elementary(sheet.flat(n))}
+    closed = {n: f for n, f in formulas.items() if sheet.is_closed(n)}
     names = {s.name for f in closed.values() for s in (*f.arguments, *f.keywords(sheet))}
     own = {q.name for q in geometry.parameters}  # last, because only these can be renamed
     _demand_names(geometry.name, language, closed, [*sorted(names - own), *sorted(names & own)])
@@ -131,10 +114,6 @@ def code_of(sheet: FormulaSheet, language: str, given: str = "") -> str:
     functions = (_function(sheet, name, function, spoken) for name, function in closed.items())
     last = spoken.last.format(body=geometry.name)
     return "\n\n".join([head, *functions, *last.splitlines()])
-
-
-def _is_elementary(expr: Expr) -> bool:
-    return all(isinstance(call, _ELEMENTARY) for call in expr.atoms(Function, Integral))
 
 
 def _heading(sheet: FormulaSheet, language: str, given: str, lacking: list[str]) -> Iterator[str]:
@@ -168,7 +147,7 @@ def _function(
         program = program.mapped(lambda expr: expr.xreplace({x: inside.symbol})).with_steps(inside)
         condition = And(condition, Eq(x, Symbol(x.name)))  # in C, a maximum ignores NaN
         words += "; zero outside the contact"
-    program = _renamed(program.ordered(), [body, *map(str, symbols), _VALUE], language)
+    program = program.ordered().renamed([body, *map(str, symbols), _VALUE], language.read)
     values = {print_(step.symbol): print_(step.expr) for step in program.steps}
     text = language.function.format(
         body=body,
@@ -180,14 +159,6 @@ def _function(
         value=(language.inside if x in symbols else "{}").format(print_(program.outputs[name])),
     )
     return "\n".join([*_comment([f"{formula.head}, {words}"], language), text])
-
-
-def _renamed(program: Program, taken: list[str], language: Language) -> Program:
-    """The program with names for its steps that the language tells from those taken."""
-    program, read = program.renamed(taken), {language.read(name) for name in taken}
-    while same := [s.symbol.name for s in program.steps if language.read(s.symbol.name) in read]:
-        program = program.renamed([*taken, *same])
-    return program
 
 
 def _printing(language: Language) -> Callable[[Basic], str]:

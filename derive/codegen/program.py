@@ -50,17 +50,20 @@ class Program:
             visit(expr)
         return replace(self, steps=tuple(done.values()))
 
-    def renamed(self, taken: Iterable[str]) -> "Program":
-        """The program with a unique name for every step, none of them among `taken`."""
+    def renamed(self, taken: Iterable[str], read: Callable[[str], str] = str) -> "Program":
+        """The program with a unique name for every step, none of them among `taken`.
+
+        read: names that it gives alike are the same name
+        """
         steps = {s.symbol for s in self.steps}
         symbols = set().union(*(expr.free_symbols for expr in self.exprs))
-        used = {*taken, *(symbol.name for symbol in symbols - steps)}
+        used = {read(name) for name in (*taken, *(symbol.name for symbol in symbols - steps))}
         table = {}
         for step in self.steps:
             name = step.symbol.name
-            while name in used:
+            while read(name) in used:
                 name += "_"
-            used.add(name)
+            used.add(read(name))
             table[step.symbol] = Symbol(name, **step.symbol.assumptions0)
         program = self.mapped(lambda expr: expr.xreplace(table))
         return replace(

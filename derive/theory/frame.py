@@ -18,6 +18,7 @@ so that the same formula also holds for a contact that has left the kink.
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from sympy import Abs, Add, Expr, Max, Symbol, atan2, diff, expand, log, sqrt, symbols
 
@@ -29,6 +30,11 @@ _FEW_TERMS = 5
 which is shorter.  With more terms, each with its own length, this would take half a minute."""
 
 
+def _symbol(stem: str, **assumptions: bool) -> Any:
+    """An attribute of a numbered object: a symbol with its number."""
+    return cached_property(lambda owner: Symbol(f"{stem}_{owner.number}", **assumptions))
+
+
 @dataclass(frozen=True)
 class KinkFrame:
     """A kink with its three symbols."""
@@ -36,20 +42,19 @@ class KinkFrame:
     kink: Kink
     clipped: bool
 
-    @cached_property
-    def theta(self) -> Symbol:
-        """Angle of the part of the contact in which the jump acts."""
-        return Symbol(f"theta_{self.kink.number}", nonnegative=True)
+    theta = _symbol("theta", nonnegative=True)
+    """Angle of the part of the contact in which the jump acts."""
 
-    @cached_property
-    def w(self) -> Symbol:
-        """Root of the product of the distances from the kink to both edges."""
-        return Symbol(f"w_{self.kink.number}", nonnegative=True)
+    w = _symbol("w", nonnegative=True)
+    """Root of the product of the distances from the kink to both edges."""
 
-    @cached_property
-    def L(self) -> Symbol:
-        """The kink's logarithm in the pressure."""
-        return Symbol(f"L_{self.kink.number}", nonnegative=True)
+    L = _symbol("L", nonnegative=True)
+    """The kink's logarithm in the pressure."""
+
+    @property
+    def number(self) -> int:
+        """Counted from the left."""
+        return self.kink.number
 
     @property
     def left(self) -> Expr:
@@ -94,7 +99,7 @@ class KinkFrame:
     @property
     def logarithm_in_words(self) -> dict[Symbol, Expr]:
         """Definition of L_j in terms of two more symbols, u_j and v_j."""
-        u, v = symbols(f"u_{self.kink.number} v_{self.kink.number}", nonnegative=True)
+        u, v = symbols(f"u_{self.number} v_{self.number}", nonnegative=True)
         return {self.L: _logarithm(u, v), u: self.u, v: self.v}
 
 
@@ -109,25 +114,13 @@ class RootFrame:
     quadratic: Expr
     number: int
 
-    @cached_property
-    def left(self) -> Symbol:
-        """Value of the root at the left edge."""
-        return Symbol(f"q_left_{self.number}", positive=True)
+    left = _symbol("q_left", positive=True)
+    right = _symbol("q_right", positive=True)
+    """Values of the root at both edges."""
 
-    @cached_property
-    def right(self) -> Symbol:
-        """Value of the root at the right edge."""
-        return Symbol(f"q_right_{self.number}", positive=True)
-
-    @cached_property
-    def m(self) -> Symbol:
-        """Parameter of the elliptic integrals."""
-        return Symbol(f"m_{self.number}", real=True)
-
-    @cached_property
-    def n(self) -> Symbol:
-        """Characteristic of the elliptic integral of the third kind."""
-        return Symbol(f"n_{self.number}", real=True)
+    m = _symbol("m", real=True)
+    n = _symbol("n", real=True)
+    """Parameter of the elliptic integrals, and characteristic of that of the third kind."""
 
     @property
     def definitions(self) -> dict[Symbol, Expr]:
