@@ -166,12 +166,12 @@ def _pressure(x: Array, a: Array, c: Array, E_star: Array, b: Array, phi: Array)
     """Contact pressure at x; zero outside [-a, c]."""
     h = a + c  # contact width [m]
     p = (E_star * phi / (2 * np.pi)) * kink_logarithm(
-        (np.maximum(c - b, 0.0) / h) * (2 * a + 2 * x),
-        (np.maximum(a + b, 0.0) / h) * (2 * c - 2 * x),
+        (2 * np.maximum(c - b, 0.0) / h) * (a + x),
+        (2 * np.maximum(a + b, 0.0) / h) * (c - x),
         x - b,
     ) + (E_star * phi / (2 * np.pi)) * kink_logarithm(
-        (np.maximum(b + c, 0.0) / h) * (2 * a + 2 * x),
-        (np.maximum(a - b, 0.0) / h) * (2 * c - 2 * x),
+        (2 * np.maximum(b + c, 0.0) / h) * (a + x),
+        (2 * np.maximum(a - b, 0.0) / h) * (c - x),
         b + x,
     )
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
@@ -181,9 +181,9 @@ def _pressure(x: Array, a: Array, c: Array, E_star: Array, b: Array, phi: Array)
 def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*phi*kink_logarithm((2*a + 2*x)*Max(0, -b + c)/h, (2*c - 2*x)*Max(0, a + b)/h,
-            -b + x)/(2*pi) + E_star*phi*kink_logarithm((2*a + 2*x)*Max(0, b + c)/h, (2*c -
-            2*x)*Max(0, a - b)/h, b + x)/(2*pi)
+        p = E_star*phi*kink_logarithm(2*(a + x)*Max(0, -b + c)/h, 2*(c - x)*Max(0, a + b)/h, -b
+            + x)/(2*pi) + E_star*phi*kink_logarithm(2*(a + x)*Max(0, b + c)/h, 2*(c - x)*Max(0,
+            a - b)/h, b + x)/(2*pi)
         h = a + c
         kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
 

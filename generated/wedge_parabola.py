@@ -181,7 +181,7 @@ def _pressure(x: Array, a: Array, c: Array, E_star: Array, R: Array, phi: Array)
     sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
     t_2 = edge_angle(c, a)  # angle of part 2 [-]
     p = (E_star * phi / (2 * np.pi)) * kink_logarithm(
-        (np.maximum(c, 0.0) / h) * (2 * a + 2 * x), (np.maximum(a, 0.0) / h) * (2 * c - 2 * x), x
+        (2 * np.maximum(c, 0.0) / h) * (a + x), (2 * np.maximum(a, 0.0) / h) * (c - x), x
     ) + (E_star * h / (np.pi * R)) * end_pressure(t_2, cos_x, sin_x)
     exists = (h > LEAST) & (c > 0) & (h < MOST) & (x == x)
     return where(exists, p, np.nan)
@@ -190,8 +190,8 @@ def _pressure(x: Array, a: Array, c: Array, E_star: Array, R: Array, phi: Array)
 def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*phi*kink_logarithm((2*a + 2*x)*Max(0, c)/h, (2*c - 2*x)*Max(0, a)/h,
-            x)/(2*pi) + E_star*h*end_pressure(t_2, cos_x, sin_x)/(pi*R)
+        p = E_star*phi*kink_logarithm(2*(a + x)*Max(0, c)/h, 2*(c - x)*Max(0, a)/h, x)/(2*pi) +
+            E_star*h*end_pressure(t_2, cos_x, sin_x)/(pi*R)
         h = a + c
         cos_x = sqrt(Max(0, c - x)/h)
         sin_x = sqrt(Max(0, a + x)/h)

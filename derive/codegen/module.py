@@ -18,11 +18,12 @@ from derive.codegen.function import LINE, FunctionText, demands_of, inside_quote
 from derive.codegen.integrals import IntegratedText
 from derive.codegen.law import LawText
 from derive.codegen.mark import MARK
-from derive.codegen.plan import Route, carried_by, route_of
+from derive.codegen.plan import is_integrated, is_solved
 from derive.codegen.publish import FULL_STICK
 from derive.codegen.solved import solved_functions
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
+from derive.symbols import P
 from derive.theory.segments import FUNCTIONS
 
 _KINDS = (
@@ -44,11 +45,6 @@ _HELPERS = {
 }
 """The names that a module can import, by their module in runtime/."""
 
-_TEXTS = {
-    Route.FORMULA: FunctionText,
-    Route.QUADRATURE: IntegratedText,
-}
-
 
 def module_text(sheet: FormulaSheet, source: str) -> str:
     """The text of the module of one body; `source` names the file that defines g(x).
@@ -57,7 +53,7 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     """
     sheet.demand_proven()
     solved = solved_functions(sheet)
-    given = {f.name for f in CONTRACT if route_of(sheet, f) is not Route.SOLVED}
+    given = {f.name for f in CONTRACT if not is_solved(sheet, f)}
     bound = {name: text for name, text in solved.items() if name not in given}
     code = "\n\n\n".join(["\n\n".join(_functions(sheet)), *bound.values()])
     stuck = [f.name for f in CONTRACT if not f.geometric]
@@ -129,12 +125,12 @@ import numpy as np
 
 def _functions(sheet: FormulaSheet) -> Iterator[str]:
     """The text of every function that has a formula, and of the law of the body."""
+    integrated = is_integrated(sheet)
     for function in CONTRACT:
-        route = route_of(sheet, function)
-        if function.geometric and route is not Route.SOLVED:
-            yield _TEXTS[route](sheet, function).text
-    made = CurveText if carried_by(sheet) is Route.QUADRATURE else LawText
-    yield made(sheet).text
+        if function.geometric and not is_solved(sheet, function):
+            text = IntegratedText if integrated and P not in function.arguments else FunctionText
+            yield text(sheet, function).text
+    yield (CurveText if integrated else LawText)(sheet).text
 
 
 def _imports(code: str, always: tuple[str, ...] = ()) -> str:

@@ -109,14 +109,14 @@ class Part:
         return self.before is not None and self.behind is not None
 
     @property
-    def begins(self) -> tuple[Expr, Expr]:
+    def begins(self) -> tuple[Expr, ...]:
         """Sine and cosine of half the angle of the left end."""
-        return (S.Zero, S.One) if self.before is None else _sine_and_cosine(self.before)
+        return (S.Zero, S.One) if self.before is None else _half_angle(self.before)[:2]
 
     @property
-    def ends(self) -> tuple[Expr, Expr]:
+    def ends(self) -> tuple[Expr, ...]:
         """Sine and cosine of half the angle of the right end."""
-        return (S.One, S.Zero) if self.behind is None else _sine_and_cosine(self.behind)
+        return (S.One, S.Zero) if self.behind is None else _half_angle(self.behind)[:2]
 
     @property
     def near(self) -> Expr:
@@ -183,10 +183,10 @@ class Part:
             return part_weight(self.t, self.far if edge is Edge.LEFT else self.near)
         return (self.t + sin(self.t)) / 2 if touched is None else segment(self.t / 2)
 
-    def beyond(self, edge: Edge, term: Callable[..., Expr]) -> Expr:
+    def beyond(self, edge: Edge) -> Expr:
         """Contribution to the next term of the pressure at an edge that the part does not touch."""
         both = (self.near, self.far) if edge is Edge.RIGHT else (self.far, self.near)
-        return term(self.t, *both)
+        return second_term(self.t, *both)
 
     @property
     def seen(self) -> Expr:
@@ -232,22 +232,10 @@ def _distance(place: Expr, other: Expr) -> Expr:
     return place - other
 
 
-def _sine_and_cosine(kink: KinkFrame) -> tuple[Symbol, Symbol]:
-    number = kink.kink.number
-    sine, cosine = symbols(f"sin_{number} cos_{number}", nonnegative=True)
-    return sine, cosine
-
-
-def _tangents(kink: KinkFrame) -> tuple[Symbol, Symbol]:
-    """Tangent and cotangent of half the angle of a kink."""
-    number = kink.kink.number
-    tangent, cotangent = symbols(f"tan_{number} cot_{number}", nonnegative=True)
-    return tangent, cotangent
-
-
-def _root(kink: KinkFrame) -> Expr:
-    """w at a kink."""
-    return sqrt(Max(0, kink.left) * Max(0, kink.right))
+def _half_angle(kink: KinkFrame) -> tuple[Symbol, ...]:
+    """Sine, cosine, tangent and cotangent of half the angle of a kink."""
+    n = kink.number
+    return symbols(f"sin_{n} cos_{n} tan_{n} cot_{n}", nonnegative=True)
 
 
 @dataclass(frozen=True)
@@ -276,16 +264,10 @@ class Parts:
     @cached_property
     def formulas(self) -> dict[str, Expr]:
         """All formulas by their names on the sheet."""
-        found = {
-            "tilt": self.tilt,
-            "load": self.load,
-            "moment": self.moment,
-            "pressure": self.pressure,
-        }
+        found = {name: getattr(self, name) for name in ("tilt", "load", "moment", "pressure")}
         for edge in Edge:
-            side = edge.name.lower()
-            found[f"K_N_{side}"] = self.edge_coefficient(edge)
-            found[f"L_N_{side}"] = self.second_coefficient(edge)
+            found[f"K_N_{edge.name.lower()}"] = self.edge_coefficient(edge)
+            found[f"L_N_{edge.name.lower()}"] = self.second_coefficient(edge)
         return found
 
     @property
@@ -297,15 +279,13 @@ class Parts:
     def load(self) -> Expr:
         """(E*/2) int g'' w ds."""
         curved = E_star * h**2 / 16 * self._sum(lambda part: part.area)
-        return curved + Add(*(E_star * J * _root(k) / 2 for J, k in self.corners))
+        return curved + Add(*(E_star * J * k.root / 2 for J, k in self.corners))
 
     @property
     def moment(self) -> Expr:
         """-(E*/4) int g'' w (s + mid) ds."""
         curved = (a - c) * self._sum(lambda part: part.area) - h / 3 * self._sum(lambda p: p.arm)
-        corners = (
-            E_star * J * _root(k) * (a - c - 2 * k.kink.position) / 8 for J, k in self.corners
-        )
+        corners = (E_star * J * k.root * (a - c - 2 * k.kink.position) / 8 for J, k in self.corners)
         return factor_terms(E_star * h**2 / 32 * curved) + Add(*corners)
 
     @property
@@ -313,14 +293,7 @@ class Parts:
         """(E*/pi) int g'' L ds."""
         curved = E_star * h / pi * self._sum(lambda part: part.seen)
         corners = (
-            E_star
-            * J
-            / (2 * pi)
-            * kink_logarithm(
-                2 * (a + x) * Max(0, k.right) / h,
-                2 * (c - x) * Max(0, k.left) / h,
-                x - k.kink.position,
-            )
+            E_star * J / (2 * pi) * kink_logarithm(2 * k.u / h, 2 * k.v / h, x - k.kink.position)
             for J, k in self.corners
         )
         return curved + Add(*corners)
@@ -333,7 +306,7 @@ class Parts:
     def second_coefficient(self, edge: Edge) -> Expr:
         """Coefficient of s**(3/2): a part due to g'' at the edge, and a part due to the others."""
         here = -E_star * self.bend_at(edge) / (4 * sqrt(h))
-        curved = E_star / (3 * pi * sqrt(h)) * self._others(edge, second_term)
+        curved = E_star / (3 * pi * sqrt(h)) * self._others(edge)
         corners = self._jumps(edge, lambda r: r * (3 + 2 * r**2))
         return here + curved + E_star / (6 * pi * h ** Rational(3, 2)) * corners
 
@@ -344,12 +317,9 @@ class Parts:
         for k in self.frame.kinks:
             at = f"of half the angle of x = {k.kink.position}"
             kinds = ("sine", "cosine", "tangent", "cotangent")
-            halves, tangents = _sine_and_cosine(k), _tangents(k)
-            sides = (k.left, k.right)
-            clipped = (sqrt(Min(h, Max(0, distance)) / h) for distance in sides)
-            ratios = (root_ratio(*sides), root_ratio(*reversed(sides)))
-            exprs = (*clipped, *ratios)
-            for kind, symbol, expr in zip(kinds, (*halves, *tangents), exprs, strict=True):
+            clipped = (sqrt(Min(h, Max(0, distance)) / h) for distance in (k.left, k.right))
+            exprs = (*clipped, root_ratio(k.left, k.right), root_ratio(k.right, k.left))
+            for kind, symbol, expr in zip(kinds, _half_angle(k), exprs, strict=True):
                 found.append(Definition(symbol, expr, f"{kind} {at}"))
         found += [
             Definition(part.t, part.angle, f"angle of part {part.number}") for part in self.parts
@@ -366,15 +336,12 @@ class Parts:
 
     def defined_in(self, forms: Iterable[Expr]) -> dict[Expr, Expr]:
         """Definitions of the symbols in the formulas, and of the functions, as they are printed."""
-        exprs = [*forms]
-        known: dict[Symbol, Expr] = {d.symbol: d.expr for d in self.definitions}
-        found: set[Symbol] = set()
-        for expr in exprs:  # the list grows during the loop
-            for symbol in expr.free_symbols & known.keys() - found:
-                found.add(symbol)
-                exprs.append(known[symbol])
-        held = {symbol: expr for symbol, expr in known.items() if symbol in found}
-        return held | definitions_of(exprs)
+        exprs, held = [*forms], []
+        for d in reversed(self.definitions):
+            if any(expr.has(d.symbol) for expr in exprs):
+                exprs.append(d.expr)
+                held.append(d)
+        return {d.symbol: d.expr for d in reversed(held)} | definitions_of(exprs)
 
     def bend_at(self, edge: Edge) -> Expr:
         """g'' at an edge: a symbol, or zero for a body without curved parts."""
@@ -391,20 +358,18 @@ class Parts:
         branches = [(p.bend, Gt(d, 0)) for p, d in zip(others, distances, strict=True)]
         return Piecewise(*branches, (last.bend, True))
 
-    def _others(self, edge: Edge, term: Callable[..., Expr]) -> Expr:
+    def _others(self, edge: Edge) -> Expr:
         """Contribution of the parts that do not end at an edge, by g'' relative to that edge."""
         if not self.curved:
             return S.Zero
         others = self.parts[1:] if edge is Edge.LEFT else self.parts[:-1]
         here = self.bend_at(edge)
-        return Add(*((part.bend - here) * part.beyond(edge, term) for part in others))
+        return Add(*((part.bend - here) * part.beyond(edge) for part in others))
 
     def _jumps(self, edge: Edge, of_tangent: Callable[[Expr], Expr]) -> Expr:
         """Sum over the corners' jumps times a function of sqrt(A/B), for the right edge."""
-        side = edge is Edge.RIGHT
-        return factor_terms(
-            Add(*(J * of_tangent(_tangents(k)[0 if side else 1]) for J, k in self.corners))
-        )
+        place = 2 if edge is Edge.RIGHT else 3
+        return factor_terms(Add(*(J * of_tangent(_half_angle(k)[place]) for J, k in self.corners)))
 
     def _sum(self, share: Callable[[Part], Expr]) -> Expr:
         """Sum over g'' times a share, grouped by g''."""
