@@ -1,8 +1,7 @@
 """The mechanics of one half-plane contact, stage by stage; each module imports only earlier ones.
 
 frame        the contribution of a kink: its angle, its root, its logarithm
-ring         expressions as polynomials over the rationals, in FLINT
-algebra      a common form for formulas, and an exact test whether one is zero
+algebra      a common form for formulas, and a proof that one is zero
 moments      I_k(a, c), the integrals from which equilibrium follows
 equilibrium  tilt from I_0 = 0, load and moment from I_1 and I_2
 pressure     p(x) inside the contact

@@ -1,9 +1,8 @@
-"""Bring formulas into a common form, and decide whether a formula is zero.
+"""Bring formulas into a common form, and prove that a formula is zero.
 
 All closed forms are rational functions of a, c, x, the parameters and the symbols of the kinks.  If
 every contact spans a kink, then w_j**2 = (a + x_j)(c - x_j).  If a contact can leave the kink, then
-w_j can be zero, and only w_j**3 = (a + x_j)(c - x_j) w_j always holds.  In this ring it can be
-decided exactly whether an expression is zero.
+w_j can be zero, and only w_j**3 = (a + x_j)(c - x_j) w_j always holds.
 """
 
 from sympy import (
@@ -22,7 +21,6 @@ from sympy import (
 )
 
 from derive.theory.frame import Frame, KinkFrame
-from derive.theory.ring import Ring
 
 
 def reduced(expr: Expr, frame: Frame) -> Expr:
@@ -43,23 +41,13 @@ def tidy(expr: Expr, frame: Frame) -> Expr:
 
 
 def is_zero(expr: Expr, frame: Frame) -> bool:
-    """Whether `expr` vanishes identically in the ring; the answer is exact.
+    """Whether `expr` is found to vanish identically in the ring; True is a proof.
 
-    Every root is a generator whose square is known, and every denominator is multiplied out.  Only
-    polynomials remain: one for each product of the kinks' symbols and the roots.  These products
-    are independent, so `expr` is zero if all of these polynomials are.
+    Over one denominator and with the lowest powers of every w_j, the products of the kinks' symbols
+    are independent, so that `expr` is zero if the numerator expands to zero.
     """
-    squares = {k.w: k.left * k.right for k in frame.kinks}
-    ring = Ring([expr, *squares.values()])
-    symbols = [*(s for k in frame.kinks for s in (k.theta, k.w, k.L)), *ring.roots]
-    first = [base for base in ring.inverses if base.has(*symbols)] if symbols else []
-    polynomial = ring.cleared(ring.polynomial(expr), first)
-    for root, (exponent, base) in ring.roots.items():
-        polynomial = ring.lowered(polynomial, root, exponent, base)
-    for k in frame.kinks:
-        polynomial = ring.lowered(polynomial, k.w, 2, squares[k.w], least=int(k.clipped))
-    parts = ring.apart(polynomial, symbols).values()
-    return all(ring.cleared(part, ring.inverses).is_zero() for part in parts)
+    numerator = expand(fraction(together(expr))[0])
+    return bool(expand(_low_power(numerator, frame)) == 0)
 
 
 def _symbols(frame: Frame) -> list[Symbol]:
