@@ -14,7 +14,6 @@ curve     the text of such a body: its curve and the functions that integrate ov
 module    the template of a generated module
 solved    the text of the functions that are solved numerically, from solved.txt
 languages the closed formulas in C, Fortran, JavaScript, Julia or MATLAB
-mark      the first line of every generated file
 trial     runs the printed module and compares its results with the sheet
 publish   the files of a whole package, and how they differ from those on disk
 

@@ -17,9 +17,8 @@ from derive.codegen.curve import CurveText
 from derive.codegen.function import LINE, FunctionText, demands_of, inside_quotes
 from derive.codegen.integrals import IntegratedText
 from derive.codegen.law import LawText
-from derive.codegen.mark import MARK
 from derive.codegen.plan import is_integrated, is_solved
-from derive.codegen.publish import FULL_STICK
+from derive.codegen.publish import FULL_STICK, MARK
 from derive.codegen.solved import solved_functions
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of

@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.codegen.mark import MARK
-from derive.codegen.publish import RUNTIME, differences, package_files
+from derive.codegen.publish import MARK, RUNTIME, differences, package_files
 from derive.command.errors import BadTarget
 from derive.command.folder import MANIFEST, replace_folder
 from tests.commands import contents

@@ -19,7 +19,7 @@ import derive.command.terminal
 import derive.pipeline
 import derive.proof.prove
 from derive.body.library import library, load_geometry
-from derive.codegen.mark import MARK
+from derive.codegen.publish import MARK
 from derive.command.cli import main
 from derive.command.processes import Bounds
 from derive.pipeline import GENERATED, STAGES
