@@ -8,11 +8,11 @@ Out: Python source, not yet formatted.
 """
 
 import textwrap
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import mpmath
-from sympy import And, Expr, Gt, Lt, Min, Or, Piecewise, S, Symbol
+from sympy import Expr, Gt, Lt, Min, Or, Piecewise, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
@@ -210,9 +210,7 @@ class FunctionText:
 
     @property
     def _existence(self) -> str:
-        needed = _shortened(self.conditions)
-        inner = len(needed) > 1
-        return f"NaN unless {' and '.join(_in_words(each, inner) for each in needed)}."
+        return f"NaN unless {_in_words(_shortened(self.conditions))}."
 
     @property
     def _proofs(self) -> str:
@@ -274,19 +272,17 @@ def constants_lines(sheet: FormulaSheet, names: list[str]) -> list[str]:
     return argument_lines(", ".join(names), "; ".join(meanings))
 
 
-def _in_words(condition: Boolean, inner: bool = False) -> str:
-    """A condition in words, with `and` and `or` as its operators.
+def _in_words(conditions: Sequence[Boolean]) -> str:
+    """Conditions in words.
 
-    inner: put a condition of several parts in parentheses
-
-    >>> _in_words((a > 1) | (c > 1), inner=True)
-    '(a > 1 or c > 1)'
+    >>> _in_words([a > 0, (a > 1) | (c > 1)])
+    'a > 0 and (a > 1 or c > 1)'
     """
-    if not isinstance(condition, And | Or):
-        return str(condition)
-    operator = " and " if isinstance(condition, And) else " or "
-    text = operator.join(_in_words(part, inner=True) for part in sorted(condition.args, key=str))
-    return f"({text})" if inner else text
+    texts = [
+        f"({' or '.join(sorted(map(str, each.args)))})" if isinstance(each, Or) else str(each)
+        for each in conditions
+    ]
+    return " and ".join(texts)
 
 
 def _proof_in_words(proof: Proof) -> str:
