@@ -92,19 +92,11 @@ class KinkFrame:
         return self.clip(self.left) * (c - x)
 
     @property
-    def logarithm(self) -> Expr:
-        """Definition of L_j."""
-        return _logarithm(self.u, self.v)
-
-    @property
-    def logarithm_in_words(self) -> dict[Symbol, Expr]:
-        """Definition of L_j in terms of two more symbols, u_j and v_j."""
+    def logarithm(self) -> dict[Symbol, Expr]:
+        """Definition of L_j in terms of two more symbols, u_j and v_j, and that of these."""
         u, v = symbols(f"u_{self.number} v_{self.number}", nonnegative=True)
-        return {self.L: _logarithm(u, v), u: self.u, v: self.v}
-
-
-def _logarithm(u: Expr, v: Expr) -> Expr:
-    return log(Abs((sqrt(u) + sqrt(v)) / (sqrt(u) - sqrt(v)))) / 2
+        quotient = (sqrt(u) + sqrt(v)) / (sqrt(u) - sqrt(v))
+        return {self.L: log(Abs(quotient)) / 2, u: self.u, v: self.v}
 
 
 @dataclass(frozen=True)
@@ -164,31 +156,25 @@ class Frame:
         return sum(len(Add.make_args(expand(part))) for part in parts) > _FEW_TERMS
 
     @cached_property
-    def definitions(self) -> dict[Symbol, Expr]:
-        """Definition of each symbol of the frame."""
-        pairs = [
-            pair
-            for k in self.kinks
-            for pair in ((k.theta, k.angle), (k.w, k.root), (k.L, k.logarithm))
-        ]
-        defined = dict(pairs)
+    def printed(self) -> dict[Symbol, Expr]:
+        """Definition of each symbol of the frame; it may contain symbols that have their own."""
+        found: dict[Symbol, Expr] = {}
+        for k in self.kinks:
+            found |= {k.theta: k.angle, k.w: k.root, **k.logarithm}
         for root in self.roots:
-            words = root.definitions
-            ends = {s: words[s] for s in (root.left, root.right)}
-            defined |= {s: definition.xreplace(ends) for s, definition in words.items()}
-        return defined
+            found |= root.definitions
+        return found
+
+    @cached_property
+    def definitions(self) -> dict[Symbol, Expr]:
+        """Definition of each symbol of the frame, written out."""
+        return {s: definition.xreplace(self.printed) for s, definition in self.printed.items()}
 
     def defined_in(self, *exprs: Expr) -> dict[Symbol, Expr]:
         """Definitions of the symbols of the frame that expressions contain, as printed."""
         held = set().union(*(expr.free_symbols for expr in exprs))
-        found: dict[Symbol, Expr] = {}
-        for k in self.kinks:
-            found |= {k.theta: k.angle} if k.theta in held else {}
-            found |= {k.w: k.root} if k.w in held else {}
-            found |= k.logarithm_in_words if k.L in held else {}
-        for root in self.roots:
-            found |= root.definitions if held & {*root.definitions} else {}
-        return found
+        held |= set().union(*(d.free_symbols for s, d in self.printed.items() if s in held))
+        return {s: definition for s, definition in self.printed.items() if s in held}
 
     def flat(self, expr: Expr) -> Expr:
         """`expr` with every symbol of the frame written out."""
