@@ -14,7 +14,7 @@
 
     proven_sheet   a name or a file           the proven sheet: the stages to prove_sheet
     sheet_and_body  a name or a file          the same and a BuiltBody: the stages to demand_right
-    build_all      names and files            a BuiltBody for each; several are built at once
+    each_in_process  names and files          what is made for each; several at once
 
 A missing proof stops the build at module_text or demand_right, and nothing is written.
 The stages are imported only when they are called, because only they need SymPy.
@@ -23,7 +23,6 @@ The stages are imported only when they are called, because only they need SymPy.
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar
@@ -58,8 +57,8 @@ STAGES = (
 USER_FILE_LIMITS = Bounds(seconds=600, gigabytes=4, stages={STAGES[0]: 60})
 """Limits for a body outside the library; none of twenty such bodies needed a tenth of them."""
 
-DONE = "done"
-"""The stage reported for a body that is finished."""
+DONE = ""
+"""What is reported in place of a stage for a body that is finished."""
 
 
 def proven_sheet(source: str, report: Report, limit: float) -> "FormulaSheet":
@@ -86,7 +85,8 @@ def time_limit_note(sheet: "FormulaSheet") -> str:
     """A message if the search for closed forms reached its time limit, otherwise empty."""
     from derive.sheet.derivation import NONE_IN_TIME
 
-    return sheet.remark if sheet.remark.startswith(NONE_IN_TIME) else ""
+    late = sheet.remark.startswith(NONE_IN_TIME)
+    return f"{sheet.geometry.name}: {sheet.remark}" if late else ""
 
 
 def sheet_and_body(
@@ -115,22 +115,15 @@ def sheet_and_body(
         raise BadProfile(sheet.geometry.name, why, remedy) from error
     closed, numerical = by_form(sheet.is_closed)
     verdicts = tuple((name, f.proof.verdict) for name, f in sheet.items() if f.proof)
-    seconds, note = perf_counter() - began, time_limit_note(sheet)
-    name = sheet.geometry.name
-    return sheet, BuiltBody(name, text, stuck, seconds, closed, numerical, verdicts, note)
+    name, seconds = sheet.geometry.name, perf_counter() - began
+    return sheet, BuiltBody(name, text, stuck, seconds, closed, numerical, verdicts)
 
 
-def build_all(
-    sources: Sequence[str], report: Report = silent, jobs: int = 1, limit: float = DEFAULT
-) -> list[BuiltBody]:
-    """The bodies of all sources, in order; `jobs` processes build them.
-
-    limit: time in seconds for the search for the closed forms of one body.
-
-    Raises what `sheet_and_body` raises for the first source that fails, and stops work on the
-    others, and what `each_in_process` raises.
-    """
-    return each_in_process(partial(_build, limit=limit), sources, report, jobs)
+def built(source: str, report: Report, limit: float) -> tuple[str, BuiltBody]:
+    """The note of `time_limit_note`, and the body; a process can return them."""
+    sheet, body = sheet_and_body(source, report, limit)
+    report(source, DONE)
+    return time_limit_note(sheet), body
 
 
 def each_in_process(
@@ -149,12 +142,6 @@ def each_in_process(
     """
     limited = limited or not all(map(is_in_library, sources))
     return in_processes(make, sources, report, jobs, USER_FILE_LIMITS if limited else None)
-
-
-def _build(source: str, report: Report, limit: float) -> BuiltBody:
-    _, body = sheet_and_body(source, report, limit)
-    report(source, DONE)
-    return body
 
 
 def _is_file(source: str) -> bool:

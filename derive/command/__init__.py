@@ -10,7 +10,7 @@ folder        a directory that is replaced as a whole, with the list of its file
 new_geometry  a new geometry from g(x) given as text, made in a process with limits
 terminal      text, tables and progress bars
 view          tables and formula sheets for a terminal
-showing       what `derive show` prints and writes
+showing       what is made of bodies for `derive show` and `generate`
 checking      what `derive check` does before it judges claims
 options       types of options and arguments
 group         how a command begins and ends

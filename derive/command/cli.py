@@ -5,8 +5,7 @@ SymPy is imported only by the commands that need it, so that help appears at onc
 
 import shlex
 import sys
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,7 +20,6 @@ from derive.command.terminal import (
     output,
     path_of,
     progress,
-    remark,
     status,
     typed,
 )
@@ -95,60 +93,46 @@ def show(
     if (name is None) != every:
         raise click.UsageError("give either NAME, a geometry or geometry file, or --all --html")
     if html:
-        _show_page(name, out, limit) if name else _show_pages(out, limit)
+        _write_pages(name, out, limit)
         return
-    from derive.command.showing import sheet_of, shown, slip_of
+    from derive.command.showing import made, sheet_of, slip_of
 
     assert name is not None
     if slip:
-        click.echo(shown(partial(slip_of, order=slip), name, limited=True))
-        return
-    form = "latex" if latex else code or ""
-    sheet, said = shown(partial(sheet_of, form=form, limit=limit), name)
-    if said:
-        remark(said)
-    if isinstance(sheet, str):
-        click.echo(sheet)
+        (shown,) = made(partial(slip_of, order=slip), [name], limited=True)
     else:
-        output(sheet)
+        form = "latex" if latex else code or ""
+        (shown,) = made(partial(sheet_of, form=form, limit=limit), [name])
+    if isinstance(shown, str):
+        click.echo(shown)
+    else:
+        output(shown)
 
 
-def _show_page(name: str, out: Path | None, limit: float) -> None:
-    """Write the page of one body."""
+def _write_pages(name: str | None, out: Path | None, limit: float) -> None:
+    """Write the page of one body, or those of the library with their index."""
     import derive.handbook  # noqa: F401 - reports a missing library at once
-    from derive.body.library import is_in_library
+    from derive.body.library import is_in_library, library
     from derive.command.files import demand_page, put_page
-    from derive.command.showing import page_of
-    from derive.pipeline import each_in_process
-
-    if out or is_in_library(name):
-        demand_page(out or Path(f"{name}.html"))
-    with _progress(1) as step:
-        ((body, page, _),) = each_in_process(partial(page_of, limit=limit), [name], step)
-    _remark_on([body])
-    path = out or Path(f"{body.name}.html")
-    put_page(page, path)
-    click.echo(f"Wrote {path_of(path.resolve())}")
-
-
-def _show_pages(out: Path | None, limit: float) -> None:
-    """Write the pages of the library with their index."""
-    import derive.handbook  # noqa: F401 - reports a missing library at once
-    from derive.body.library import library
     from derive.command.folder import demand_replaceable, replace_folder, with_manifest
     from derive.command.processes import cores
-    from derive.command.showing import page_of
+    from derive.command.showing import made, page_of
     from derive.handbook.page import index_of
-    from derive.pipeline import each_in_process
 
-    folder, page_of_set = out or Path("handbook"), partial(page_of, limit=limit, index=True)
+    make = partial(page_of, limit=limit, index=name is None)
+    if name is not None:
+        if out or is_in_library(name):
+            demand_page(out or Path(f"{name}.html"))
+        ((body, page, _),) = made(make, [name])
+        path = out or Path(f"{body}.html")
+        put_page(page, path)
+        click.echo(f"Wrote {path_of(path.resolve())}")
+        return
+    folder = out or Path("handbook")
     demand_replaceable(folder)
-    with _progress(len(library())) as step:
-        made = each_in_process(page_of_set, library(), step, cores())
-    bodies, _, cards = zip(*made, strict=True)
-    _remark_on(bodies)
-    pages = {f"{body.name}.html": page for body, page, _ in made}
-    replace_folder(with_manifest(pages | {"index.html": index_of(cards)}), folder)
+    bodies, pages, cards = zip(*made(make, library(), jobs=cores()), strict=True)
+    files = dict(zip((f"{body}.html" for body in bodies), pages, strict=True))
+    replace_folder(with_manifest(files | {"index.html": index_of(cards)}), folder)
     index = path_of((folder / "index.html").resolve())
     click.echo(f"Wrote {index} and the pages of {len(bodies)} bodies")
 
@@ -216,14 +200,14 @@ def generate(
     named.  A package that --out names is replaced as a whole.
     """
     from derive.codegen.publish import resolved
-    from derive.command import view
     from derive.command.processes import cores
-    from derive.pipeline import Order, build_all
+    from derive.pipeline import Order, built
 
     order = Order(sources, resolved(out) if out else None, writes=not check)
-    with _progress(len(order.names)) as step:
-        bodies = build_all(order.names, step, jobs or cores(), limit)
-    _remark_on(bodies)
+    from derive.command import view
+    from derive.command.showing import made
+
+    bodies = made(partial(built, limit=limit), order.names, jobs=jobs or cores())
     if check:
         _report_drift(order, bodies)
         return
@@ -405,20 +389,6 @@ def edge(
             text = report.as_page(found, steps, file.name) if page else report.as_csv(found)
             put_page(text, path, option, mark)
             click.echo(f"Wrote {path_of(path.absolute())}")
-
-
-def _progress(bodies: int) -> AbstractContextManager[Callable[[str, str], None]]:
-    """A progress bar for the stages of bodies."""
-    from derive.pipeline import STAGES
-
-    return progress(bodies, STAGES)
-
-
-def _remark_on(bodies: "Iterable[BuiltBody]") -> None:
-    """Report the searches that reached their limit."""
-    for body in bodies:
-        if body.time_limit_note:
-            remark(f"{body.name}: {body.time_limit_note}")
 
 
 def _report_drift(order: "Order", bodies: "Sequence[BuiltBody]") -> None:

@@ -18,12 +18,11 @@ from sympy import Add, Expr, Monomial, Poly
 from derive import derive_sheet, load_geometry, pipeline
 from derive.command import view
 from derive.command.processes import Report
-from derive.command.terminal import folded, status
-from derive.sheet.built import BuiltBody
+from derive.command.terminal import folded, progress, remark
 from derive.sheet.derivation import slip_series
 from derive.sheet.notation import text_of
 
-Shown = TypeVar("Shown")
+Made = TypeVar("Made")
 
 _SENSES = (
     "kappa_left, kappa_right: directions of slip in the half-cycle that raises the shear load: 1 "
@@ -32,48 +31,50 @@ _SENSES = (
 )
 
 
-def shown(make: Callable[[str, Report], Shown], name: str, limited: bool = False) -> Shown:
-    """What `make` returns for a geometry, and a spinner that tells the stage.
+def made(
+    make: Callable[[str, Report], tuple[str, Made]],
+    names: Sequence[str],
+    jobs: int = 1,
+    limited: bool = False,
+) -> list[Made]:
+    """What `make` returns for every body, with a progress bar; its remarks are printed.
 
     limited: whether limits hold for a body of the library, too
     """
-    with status(f"reading {name}") as update:
-
-        def report(what: str, stage: str) -> None:
-            update(f"{what}: {stage}")
-
-        (made,) = pipeline.each_in_process(make, [name], report, limited=limited)
-    return made
+    with progress(len(names), pipeline.STAGES) as step:
+        found = pipeline.each_in_process(make, names, step, jobs, limited)
+    for note in filter(None, (note for note, _ in found)):
+        remark(note)
+    return [each for _, each in found]
 
 
-def sheet_of(name: str, report: Report, form: str, limit: float) -> tuple[RenderableType, str]:
-    """The proven sheet of a body for the terminal, in LaTeX or as code, and a remark."""
+def sheet_of(name: str, report: Report, form: str, limit: float) -> tuple[str, RenderableType]:
+    """A remark, and the proven sheet of a body for the terminal, in LaTeX or as code."""
     sheet = pipeline.proven_sheet(name, report, limit).demand_proven()
     note = pipeline.time_limit_note(sheet)
-    remark = f"{sheet.geometry.name}: {note}" if note else ""
     if form == "latex":
-        return sheet.latex, remark
+        return note, sheet.latex
     if form:
         from derive.codegen.languages import code_of
 
-        return code_of(sheet, form, name), remark
-    return view.formulas(sheet), remark
+        return note, code_of(sheet, form, name)
+    return note, view.formulas(sheet)
 
 
 def page_of(
-    name: str, report: Report, limit: float, index: bool = False
-) -> tuple[BuiltBody, str, Markup]:
-    """A body, its page, and its entry in an index, to which the page may link."""
+    name: str, report: Report, limit: float, index: bool
+) -> tuple[str, tuple[str, str, Markup]]:
+    """A remark; a body's name, its page, and its entry in an index, to which the page may link."""
     from derive.handbook.page import card, page
 
     sheet, body = pipeline.sheet_and_body(name, report, limit)
-    made = body, page(sheet, body, index), card(sheet, body)
+    found = body.name, page(sheet, body, index), card(sheet, body)
     report(name, pipeline.DONE)
-    return made
+    return pipeline.time_limit_note(sheet), found
 
 
-def slip_of(name: str, report: Report, order: int) -> str:
-    """The terms of both slip zones, then the meaning of their coefficients; long lines continue."""
+def slip_of(name: str, report: Report, order: int) -> tuple[str, str]:
+    """No remark; the terms of both slip zones and the meaning of their coefficients, in lines."""
     report(name, "reading g(x)")
     geometry = load_geometry(name)
     report(name, "deriving the terms of the slip zones")
@@ -88,7 +89,7 @@ def slip_of(name: str, report: Report, order: int) -> str:
         for number, term in enumerate(found, 1)
     ]
     lines = [*zones, *(f"{s} = {text_of(value)}" for s, value in known.items()), _SENSES]
-    return "\n".join(folded(line) for line in lines)
+    return "", "\n".join(folded(line) for line in lines)
 
 
 def _grouped(term: Expr, leading: Sequence[Expr]) -> Expr:

@@ -45,7 +45,7 @@ def status(words: str) -> Iterator[Callable[[str], None]]:
 def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str], None]]:
     """A progress bar; the yielded function tells it which stage a body enters.
 
-    A word that is not a stage says that the body is finished.
+    An empty stage says that the body is finished; any other word only changes the caption.
     """
     columns = (_CAPTION, BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with _moving(columns, "starting", bodies * len(stages)) as update:
@@ -53,10 +53,11 @@ def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str]
         at_work: dict[str, str] = {}
 
         def step(body: str, stage: str) -> None:
-            passed[body] = stages.index(stage) if stage in stages else len(stages)
             at_work.pop(body, None)
-            if stage in stages:
+            if stage:
                 at_work[body] = stage
+            if stage in stages or not stage:
+                passed[body] = stages.index(stage) if stage else len(stages)
             *others, last = at_work.items() or [(body, "finishing")]
             more = f", {len(others)} more in progress" if others else ""
             update(": ".join(last) + more, sum(passed.values()))

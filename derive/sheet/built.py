@@ -27,7 +27,6 @@ class BuiltBody:
     closed     parts of the contact law that are closed formulas
     numerical  parts of the contact law that are computed numerically
     verdicts   verdict on every formula
-    time_limit_note  message if the search for closed forms reached its time limit, otherwise empty
     """
 
     name: str
@@ -37,7 +36,6 @@ class BuiltBody:
     closed: tuple[str, ...]
     numerical: tuple[str, ...]
     verdicts: tuple[tuple[str, Verdict], ...]
-    time_limit_note: str = ""
 
     def formulas(self, verdict: Verdict) -> tuple[str, ...]:
         """Names of the formulas with this verdict."""

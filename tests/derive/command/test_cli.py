@@ -58,14 +58,14 @@ def built(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
     def build(
         source: str, report: Callable[[str, str], None], limit: float
-    ) -> tuple[None, BuiltBody]:
+    ) -> tuple[FormulaSheet, BuiltBody]:
         asked.append(source)
         for stage in STAGES:
             report(source, stage)
         if source in texts:
-            return None, underived(source, texts[source])
+            return sheet("hertz"), underived(source, texts[source])
         made = load_geometry(source)
-        return None, underived(made.name, f"{MARK}\n# {made.g}\n")
+        return sheet("hertz"), underived(made.name, f"{MARK}\n# {made.g}\n")
 
     monkeypatch.setattr(derive.pipeline, "sheet_and_body", build)
     monkeypatch.setattr(derive.pipeline, "USER_FILE_LIMITS", None)
