@@ -25,7 +25,7 @@ if find_spec("matplotlib") is None:
 
 from derive.plot.histories import film, friction_work, instants, work
 from derive.plot.live import Loads, sliders
-from derive.plot.measure import Measure, over, unit
+from derive.plot.measure import Measure, unit
 from derive.plot.series import errors, relative_errors
 from derive.plot.style import COLOURS, LINES, save, style, subplots
 from derive.plot.tractions import pressures, shear, slip, tractions
@@ -42,7 +42,6 @@ __all__ = [
     "friction_work",
     "instants",
     "key",
-    "over",
     "pressures",
     "relative_errors",
     "save",

@@ -31,6 +31,8 @@ class Measure:
     >>> mm = Measure(1e-3, "mm")
     >>> float(mm(0.25)), mm.label("x")
     (250.0, '$x$  [mm]')
+    >>> Measure(0.5, "a", ratio=True).label("x")
+    '$x/a$'
     """
 
     size: float
@@ -50,40 +52,8 @@ class Measure:
         return np.where(np.isfinite(drawn), drawn, np.nan)
 
     def label(self, symbol: str) -> str:
-        """The axis label.
-
-        >>> Measure(1e-3, "mm").label("x"), over(0.5, "a").label("x")
-        ('$x$  [mm]', '$x/a$')
-        """
+        """The axis label."""
         return f"${symbol}/{self.name}$" if self.ratio else f"${symbol}$  [{self.name}]"
-
-
-def over(size: float, name: str) -> Measure:
-    """A measure for ratios to a quantity of the problem.
-
-    Parameters
-    ----------
-    size : float
-        The quantity in SI units.
-    name : str
-        Its symbol in LaTeX.
-
-    Returns
-    -------
-    Measure
-        The measure.
-
-    Raises
-    ------
-    ValueError
-        If the size is not finite and positive.
-
-    Examples
-    --------
-    >>> over(0.5, "a").label("x")
-    '$x/a$'
-    """
-    return Measure(float(size), name, ratio=True)
 
 
 _PREFIXES = {

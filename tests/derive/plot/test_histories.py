@@ -36,7 +36,7 @@ def colours(axes: Any) -> np.ndarray:
 
 
 def test_a_map_shows_what_slips_on_the_way_to_each_instant() -> None:
-    axes = plot.slip_map(WHOLE, X, np.linspace(0, 1, 6), length=plot.over(EDGE, "a"))
+    axes = plot.slip_map(WHOLE, X, np.linspace(0, 1, 6), length=plot.Measure(EDGE, "a", ratio=True))
     cells, away = colours(axes), np.abs(X) / EDGE
     for k, end in enumerate(ENDS):
         sense = FORWARD if k < 2 else REVERSE

@@ -293,7 +293,7 @@ def sliders(**changed: float) -> Any:
 
 
 REFUSED: dict[str, Callable[[], Any]] = {
-    "finite positive number": lambda: plot.over(0.0, "a"),
+    "finite positive number": lambda: plot.Measure(0.0, "a"),
     "the unit 'ft' is not known; give one of m, Pa": lambda: plot.unit(1.0, "ft"),
     r"states\[0\] is .*, not a single Contact": lambda: pressures(SEVERAL),
     r"states\[0\] is 3.0, not a single .* give one result of `contact`": lambda: pressures(3.0),
