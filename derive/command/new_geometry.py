@@ -5,20 +5,19 @@ SymPy can take very long for a short text, so that this is done in a process wit
 
 import ast
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from sympy import Abs, Rational
 from sympy.printing.str import StrPrinter
 
-from derive.body.geometry import Geometry, parameter, without_x
+from derive.body.geometry import Geometry, Parameter, parameter, without_x
 from derive.body.library import is_in_library
 from derive.codegen.module import formatted
 from derive.command.errors import BadName, BadProfile, BadUnit, UserError
 from derive.command.options import bad_option
 from derive.command.processes import Bounds, Report, in_processes, silent
 from derive.reading.profile import parameters, read, tree_of, value
-from derive.reading.text import Tree
 from derive.reading.units import units_of_profile
 from derive.reading.words import refusal
 from derive.symbols import RESERVED, x
@@ -79,7 +78,7 @@ def new_geometry(wanted: Wanted, report: Report = silent) -> tuple[Geometry, str
     report(f"g of {wanted.name!r}", "reading g(x)")
     _demand_name(wanted.name)
     tree = tree_of(wanted.profile)
-    names = tuple(parameters(tree))
+    names = parameters(tree)
     for option, given in (("--unit", wanted.units), ("--meaning", wanted.meanings)):
         for name, text in given.items():
             if name not in names:
@@ -95,9 +94,16 @@ def new_geometry(wanted: Wanted, report: Report = silent) -> tuple[Geometry, str
     if (count := len(names)) > _MOST_PARAMETERS:
         why = f"has {count} parameters, and at most {_MOST_PARAMETERS} are allowed"
         raise BadProfile(wanted.name, why, "replace some of them by numbers")
-    described = _described(wanted, tree)
-    geometry = _geometry(wanted, tree, described)
-    return geometry, _text(wanted, geometry, described)
+    symbols = _symbols(wanted, names)
+    try:
+        geometry = Geometry(wanted.name, g=value(tree, symbols))
+        return geometry, _text(wanted, geometry, symbols.values())
+    except UserError:
+        raise
+    except Exception as error:
+        why = "has too many terms" if isinstance(error, RecursionError) else "cannot be evaluated"
+        remedy = "write it as polynomials in x on intervals, with Abs, Piecewise, Max, ..."
+        raise BadProfile(wanted.name, why, remedy) from error
 
 
 def _demand_name(name: str) -> None:
@@ -111,42 +117,22 @@ def _demand_name(name: str) -> None:
         raise BadName("geometry", name, "is already in the library")
 
 
-def _absent(name: str, names: Sequence[str]) -> str:
+def _absent(name: str, names: Iterable[str]) -> str:
     known = f"its parameters are {', '.join(names)}" if names else "it has no parameters"
     return f"g(x) has no parameter {name!r}; {known}"
 
 
-_Described = Mapping[str, tuple[str, str]]
-"""Meaning and unit of each parameter, in the order of the text."""
+def _symbols(wanted: Wanted, names: Mapping[str, int]) -> dict[str, Parameter]:
+    """The parameters, in the order of the text; one without influence is refused.
 
-
-def _described(wanted: Wanted, tree: Tree) -> _Described:
-    """The meaning and unit of each parameter; a parameter without influence is refused."""
-    g = read(wanted.profile)
-    units_of = units_of_profile(g, wanted.units)
-    names = parameters(tree)
+    names: the column of each parameter in the text
+    """
+    units = units_of_profile(read(wanted.profile), wanted.units)
     for name, column in names.items():
-        if name not in units_of:
+        if name not in units:
             raise refusal(wanted.profile, column, f"{name} cancels out of g(x)", "leave it out")
-    return {name: (wanted.meanings.get(name, NEUTRAL), units_of[name]) for name in names}
-
-
-def _geometry(wanted: Wanted, tree: Tree, described: _Described) -> Geometry:
-    symbols = {
-        name: parameter(name, meaning, unit=unit) for name, (meaning, unit) in described.items()
-    }
-    try:
-        return Geometry(wanted.name, g=value(tree, symbols))
-    except UserError:
-        raise
-    except Exception as error:
-        why = "has too many terms" if isinstance(error, RecursionError) else "cannot be evaluated"
-        raise _too_large(wanted.name, why) from error
-
-
-def _too_large(name: str, why: str) -> BadProfile:
-    remedy = "write it as polynomials in x on intervals, with Abs, Piecewise, Max, ..."
-    return BadProfile(name, why, remedy)
+    meanings = {name: wanted.meanings.get(name, NEUTRAL) for name in names}
+    return {name: parameter(name, meanings[name], unit=units[name]) for name in names}
 
 
 class _Exact(StrPrinter):
@@ -156,27 +142,19 @@ class _Exact(StrPrinter):
         return f"Rational({expr.p}, {expr.q})"
 
 
-def _text(wanted: Wanted, geometry: Geometry, described: _Described) -> str:
+def _text(wanted: Wanted, geometry: Geometry, symbols: Collection[Parameter]) -> str:
     """The text of the file, in the form of the files of the library."""
-    try:
-        profile = _Exact().doprint(geometry.g)
-    except RecursionError as error:
-        raise _too_large(wanted.name, "has too many terms") from error
+    profile = _Exact().doprint(geometry.g)
     names = {node.id for node in ast.walk(ast.parse(profile)) if isinstance(node, ast.Name)}
-    imported = names - {"x", *described}
+    imported = names - {"x", *(symbol.name for symbol in symbols)}
     imports = ", ".join(sorted(imported, key=lambda name: (name.islower(), name)))
     lines = [
         _docstring(wanted.title.strip() or _title(wanted)),
         "",
         *([f"from sympy import {imports}", ""] if imports else []),
-        "from derive import Geometry, parameter, x"
-        if described
-        else "from derive import Geometry, x",
+        f"from derive import Geometry, {'parameter, ' if symbols else ''}x",
         "",
-        *(
-            f"{name} = parameter({name!r}, {meaning!r}, unit={unit!r})"
-            for name, (meaning, unit) in described.items()
-        ),
+        *(f"{s.name} = parameter({s.name!r}, {s.meaning!r}, unit={s.unit!r})" for s in symbols),
         f"geometry = Geometry({wanted.name!r}, g={profile})",
     ]
     return formatted("\n".join(lines) + "\n")
