@@ -219,14 +219,10 @@ class Order:
         kept = modules_in(GENERATED) if self.folder is None and self.sources else {}
         return package_files(kept | made, with_runtime=not self.kept)
 
-    def write(self, bodies: Iterable[BuiltBody]) -> list[Difference]:
-        """Write the package; return how the directory differed from it before."""
+    def fulfil(self, bodies: Iterable[BuiltBody]) -> list[Difference]:
+        """Write the package if this is wanted; return how the directory differed from it before."""
         files = self.files(bodies)
         found = differences(files, self.target, self.kept)
-        if found:
+        if found and self.writes:
             replace_folder(files, self.target, self.kept)
         return found
-
-    def check(self, bodies: Iterable[BuiltBody]) -> list[Difference]:
-        """The differences between the directory and what would be written."""
-        return differences(self.files(bodies), self.target, self.kept)

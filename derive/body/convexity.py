@@ -276,5 +276,5 @@ def value_beside(expr: Expr, place: Expr, sense: int) -> Expr | None:
         with within(_PATIENCE):
             found = limit(expr, x, place) if place in (oo, -oo) else None
             return beside(expr, place, sense) if found is None else found
-    except (LimitReached, NotImplementedError, ValueError, TypeError, AttributeError):
+    except (LimitReached, RuntimeError, ValueError, TypeError, AttributeError):
         return None

@@ -137,19 +137,17 @@ class Slope:
         if self.is_polynomial:
             return limit(self.pieces[0].slope, x, -oo), limit(self.pieces[-1].slope, x, oo)
         (low, high), (first, last) = self.domain, (self.pieces[0], self.pieces[-1])
-        bounds = self._limit(first, low, "+", -oo), self._limit(last, high, "-", oo)
+        bounds = self._limit(first, low, 1, -oo), self._limit(last, high, -1, oo)
         rises = gently(simplify, bounds[1] - bounds[0]).is_extended_positive
         return bounds if rises else (-oo, oo)  # SymPy's limits of powers can be wrong
 
-    def _limit(self, piece: Piece, end: Expr, side: str, otherwise: Expr) -> Expr:
+    def _limit(self, piece: Piece, end: Expr, sense: int, otherwise: Expr) -> Expr:
         """Limit of g' at an end, or `otherwise`, which is not a bound, if SymPy cannot find it."""
-        try:
-            slope = gently(simplify, with_surpluses(piece.slope, surpluses(self.demands)))
-            found = limit(slope, x, end, side)
-        except (NotImplementedError, ValueError, TypeError, RecursionError, AttributeError):
+        slope = gently(simplify, with_surpluses(piece.slope, surpluses(self.demands)))
+        found = value_beside(slope, end, sense)
+        if found is None or found.atoms(Dummy) or found.has(Limit, AccumBounds):
             return otherwise
-        known = found in (oo, -oo) or not (found.atoms(Dummy) or found.has(Limit, AccumBounds))
-        return found if known else otherwise
+        return found
 
 
 @lru_cache(maxsize=64)

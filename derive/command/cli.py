@@ -25,8 +25,8 @@ from derive.command.terminal import (
 )
 
 if TYPE_CHECKING:
+    from derive.codegen.publish import Difference
     from derive.pipeline import Order
-    from derive.sheet.built import BuiltBody
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
@@ -208,10 +208,10 @@ def generate(
     from derive.command.showing import made
 
     bodies = made(partial(built, limit=limit), order.names, jobs=jobs or cores())
+    changed = order.fulfil(bodies)
     if check:
-        _report_drift(order, bodies)
+        _report_drift(order, changed)
         return
-    changed = order.write(bodies)
     output(view.summary(bodies))
     click.echo(f"{'Wrote' if changed else 'Nothing to change in'} {path_of(order.target)}")
     if lost := [d.name for d in changed if d.removed and "/" not in d.name]:
@@ -391,10 +391,9 @@ def edge(
             click.echo(f"Wrote {path_of(path.absolute())}")
 
 
-def _report_drift(order: "Order", bodies: "Sequence[BuiltBody]") -> None:
+def _report_drift(order: "Order", found: "Sequence[Difference]") -> None:
     from derive.command import view
 
-    found = order.check(bodies)
     if not found:
         click.echo(f"{path_of(order.target)} is up to date")
         return
