@@ -160,26 +160,13 @@ def _above(expr: Expr, relation: type[Relational] = Gt) -> Boolean:
 def _of_polynomial(curvature: Expr, lower: Expr, upper: Expr) -> list[Boolean] | None:
     """Conditions that make a polynomial nonnegative between two points; None if none are found.
 
-    Factors that do not change sign between the points are removed first.
+    Even powers never change sign, and of odd ones the base decides.
     """
-    rest: list[Expr] = []
-    constant = Integer(1)
+    rest = Integer(1)
     for part in Mul.make_args(_factored(curvature)):
         base, power = part.as_base_exp() if part.has(x) else (part, Integer(1))
-        if not part.has(x):
-            constant *= part
-        elif not power.is_even:
-            rest.append(base)
-    for part in [*rest]:
-        for signed, turned in ((part, 1), (-part, -1)):
-            if part in rest and _between(signed, lower, upper) == []:
-                rest.remove(part)
-                constant *= turned
-    if not rest:
-        return _positive(constant)
-    if len(rest) > 1:
-        return None
-    return _between(constant * rest[0], lower, upper)
+        rest *= 1 if power.is_even else base
+    return _between(rest, lower, upper) if rest.has(x) else _positive(rest)
 
 
 def _between(expr: Expr, lower: Expr, upper: Expr) -> list[Boolean] | None:

@@ -159,8 +159,7 @@ def read_slope(name: str, g: Expr) -> Slope:
     pieces = resolved(name, g, -oo, oo)
     _demand_no_point_apart(name, g, pieces)
     pieces = merged(pieces)
-    _demand_known_functions(name, pieces)
-    _demand_known_numbers(name, pieces)
+    _demand_known(name, pieces)
     domain = _domain(name, pieces)
     _demand_finite(name, pieces, domain)
     _demand_continuous(name, pieces)
@@ -188,33 +187,26 @@ def _ends_beyond_origin(piece: Piece) -> bool:
     return piece.upper == 0 or bool(is_known_positive(piece.upper))
 
 
-def _demand_known_functions(name: str, pieces: list[Piece]) -> None:
-    known = ", ".join(f.__name__ for f in (*BRANCHING, *_SMOOTH))
-    for piece in pieces:
-        for held in sorted(piece.profile.atoms(Function), key=str):
-            if held.has(x) and not isinstance(held, _SMOOTH):
-                why = f"contains {held}, a function of x that is not supported"
-                raise BadProfile(name, why, f"use only powers and {known}")
-            if not held.has(x) and not isinstance(held, _FIXED):
-                raise _not_computed(name, held)
+def _demand_known(name: str, pieces: list[Piece]) -> None:
+    """Refuse functions of x that are not supported, and what the proofs cannot compute.
 
-
-def _demand_known_numbers(name: str, pieces: list[Piece]) -> None:
-    """Refuse numbers such as EulerGamma in a profile that the proofs must integrate."""
-    if all(piece.profile.is_polynomial(x) for piece in pieces):
-        return
-    held = set().union(*(piece.profile.atoms(NumberSymbol) for piece in pieces)) - {pi, E}
-    for number in sorted(held, key=str):
-        raise _not_computed(name, number)
-
-
-def _not_computed(name: str, held: Expr) -> BadProfile:
-    """The error for an expression that the proofs cannot compute to any number of digits."""
-    remedy = (
-        "replace it with a parameter and pass its value in the call, or with its numerical value, "
-        "such as Rational('0.577')"
-    )
-    return BadProfile(name, f"contains {held}, which the proofs cannot compute", remedy)
+    A polynomial is never integrated numerically, so that it may contain any number.
+    """
+    polynomial = all(piece.profile.is_polynomial(x) for piece in pieces)
+    kinds = (Function,) if polynomial else (Function, NumberSymbol)
+    found = set().union(*(piece.profile.atoms(*kinds) for piece in pieces)) - {pi, E}
+    for held in sorted(found, key=str):
+        if held.has(x) and not isinstance(held, _SMOOTH):
+            known = ", ".join(f.__name__ for f in (*BRANCHING, *_SMOOTH))
+            why = f"contains {held}, a function of x that is not supported"
+            raise BadProfile(name, why, f"use only powers and {known}")
+        if not held.has(x) and not isinstance(held, _FIXED):
+            remedy = (
+                "replace it with a parameter and pass its value in the call, or with its numerical "
+                "value, such as Rational('0.577')"
+            )
+            why = f"contains {held}, which the proofs cannot compute"
+            raise BadProfile(name, why, remedy)
 
 
 def _demand_finite(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) -> None:
