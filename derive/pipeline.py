@@ -21,13 +21,12 @@ The stages are imported only when they are called, because only they need SymPy.
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar
 
-from derive.body.library import is_in_library, library, load_geometry
+from derive.body.library import file_of, is_in_library, library, load_geometry
 from derive.codegen.publish import (
     FULL_STICK,
     RUNTIME,
@@ -144,12 +143,6 @@ def each_in_process(
     return in_processes(make, sources, report, jobs, USER_FILE_LIMITS if limited else None)
 
 
-def _is_file(source: str) -> bool:
-    with suppress(OSError, ValueError):  # not a valid file name
-        return Path(source).is_file()
-    return False
-
-
 def _origin(source: str) -> str:
     """The source of g(x), without anything that differs between machines."""
     return f"derive/geometries/{source}.py" if is_in_library(source) else Path(source).name
@@ -178,8 +171,7 @@ class Order:
             return
         for source in self.sources:
             if not is_in_library(source):
-                if not _is_file(source):
-                    load_geometry(source)  # reports what is wrong; a file is never run here
+                file_of(source)
                 why = (
                     "is not in the library, and the package `generated` contains only bodies of it"
                 )

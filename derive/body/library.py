@@ -3,10 +3,11 @@
 SymPy is imported when a file is loaded, not when it is looked up.
 """
 
-import importlib.util
 import signal
 import sys
+from contextlib import suppress
 from pathlib import Path
+from runpy import run_path
 from typing import TYPE_CHECKING
 
 from derive.command.errors import BadGeometryFile, UnknownGeometry, UserError
@@ -57,37 +58,12 @@ def load_geometry(name_or_path: str | Path) -> "Geometry":
     >>> load_geometry("hertz").g
     x**2/(2*R)
     """
-    given = str(name_or_path)
-    if is_in_library(given):
-        return _execute(FOLDER / f"{given}.py")
-    path = Path(given)
-    if given and (path.suffix == ".py" or _exists(path)):
-        return _execute(path)
-    raise UnknownGeometry(given, library())
-
-
-def _exists(path: Path) -> bool:
-    try:
-        return path.exists()
-    except (OSError, ValueError):  # not a valid file name
-        return False
-
-
-def _execute(path: Path) -> "Geometry":
     from derive.body.geometry import Geometry
 
-    if not _exists(path):
-        raise BadGeometryFile(str(path), "there is no such file")
-    if not path.is_file():
-        what = "a directory" if path.is_dir() else "a device or a pipe, not a regular file"
-        raise BadGeometryFile(str(path), f"it is {what}")
-    spec = importlib.util.spec_from_file_location(f"_geometry_{path.stem}", path)
-    if spec is None or spec.loader is None:
-        raise BadGeometryFile(str(path), "it is not a Python file")
-    module = importlib.util.module_from_spec(spec)
+    path = file_of(str(name_or_path))
     keep, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
-        spec.loader.exec_module(module)
+        found = run_path(str(path), run_name=f"_geometry_{path.stem}")
     except UserError:
         raise
     except (Exception, SystemExit) as error:
@@ -97,7 +73,26 @@ def _execute(path: Path) -> "Geometry":
         raise BadGeometryFile(str(path), why) from error
     finally:
         sys.dont_write_bytecode = keep
-    geometry = getattr(module, "geometry", None)
+    geometry = found.get("geometry")
     if not isinstance(geometry, Geometry):
         raise BadGeometryFile(str(path), "it does not define `geometry`")
-    return geometry.described((module.__doc__ or "").strip())
+    return geometry.described((found["__doc__"] or "").strip())
+
+
+def file_of(given: str) -> Path:
+    """The file of a geometry, which is not executed; raises UnknownGeometry or BadGeometryFile."""
+    if is_in_library(given):
+        return FOLDER / f"{given}.py"
+    path, exists = Path(given), False
+    with suppress(OSError, ValueError):  # not a valid file name
+        exists = bool(given) and path.exists()
+    if not exists and path.suffix != ".py":
+        raise UnknownGeometry(given, library())
+    if not exists:
+        raise BadGeometryFile(given, "there is no such file")
+    if not path.is_file():
+        what = "a directory" if path.is_dir() else "a device or a pipe, not a regular file"
+        raise BadGeometryFile(given, f"it is {what}")
+    if path.suffix != ".py":
+        raise BadGeometryFile(given, "it is not a Python file")
+    return path
