@@ -69,7 +69,7 @@ class Lows:
             found = self._further(places, values, numbers)
             places, first = np.unique(np.concatenate((places, found)), return_index=True)
             values = np.concatenate((values, self._values(found, numbers)))[first]
-        return [*_lowest(places, values), *_without_value(places, values)]
+        return [*_suspects(places, values)]
 
     def _values(self, places: Array, numbers: list[np.float64]) -> Array:
         """The curvature; NaN where it or the profile is undefined."""
@@ -150,13 +150,9 @@ def _runs(flags: NDArray[np.bool_]) -> NDArray[np.int_]:
     return ends[np.argsort(ends[:, 0] - ends[:, 1], kind="stable")]
 
 
-def _lowest(places: Array, values: Array) -> Iterator[float]:
-    """The point with the lowest value in each long run of negative values."""
+def _suspects(places: Array, values: Array) -> Iterator[float]:
+    """The lowest point of each long run of negative values, and the middle of undefined ones."""
     for first, last in islice(_runs(values < 0), _NEGATIVE):
         yield float(places[first + np.argmin(values[first:last])])
-
-
-def _without_value(places: Array, values: Array) -> Iterator[float]:
-    """The middle of each long run of undefined values."""
     for first, last in islice(_runs(np.isnan(values)), _WITHOUT):
         yield float(places[(first + last) // 2])

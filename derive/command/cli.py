@@ -98,11 +98,10 @@ def show(
     from derive.command.showing import made, sheet_of, slip_of
 
     assert name is not None
+    make = partial(sheet_of, form="latex" if latex else code or "", limit=limit)
     if slip:
-        (shown,) = made(partial(slip_of, order=slip), [name], limited=True)
-    else:
-        form = "latex" if latex else code or ""
-        (shown,) = made(partial(sheet_of, form=form, limit=limit), [name])
+        make = partial(slip_of, order=slip)
+    (shown,) = made(make, [name], limited=bool(slip))
     if isinstance(shown, str):
         click.echo(shown)
     else:

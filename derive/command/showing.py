@@ -73,7 +73,7 @@ def page_of(
     return pipeline.time_limit_note(sheet), found
 
 
-def slip_of(name: str, report: Report, order: int) -> tuple[str, str]:
+def slip_of(name: str, report: Report, order: int) -> tuple[str, RenderableType]:
     """No remark; the terms of both slip zones and the meaning of their coefficients, in lines."""
     report(name, "reading g(x)")
     geometry = load_geometry(name)
