@@ -7,7 +7,6 @@ Out: its pieces, without these functions.
 Each of these functions is read as cases, a value and a condition each, like those of a Piecewise.
 """
 
-from collections.abc import Iterator
 from itertools import pairwise
 
 from sympy import (
@@ -58,7 +57,7 @@ def resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
         inner = _innermost(g)  # (x**2 cosh(x/b))**k becomes Abs(x)**(2 k) cosh(x/b)**k
     if inner is None:
         return [Piece(lower, upper, g)]
-    cases = [*_cases(inner)]
+    cases = _cases(inner)
     points = [lower, *_between(name, _switching_points(name, cases), lower, upper), upper]
     pieces = []
     for left, right in pairwise(points):
@@ -88,22 +87,13 @@ def _innermost(g: Expr) -> Expr | None:
     return min(simple, key=str, default=None)
 
 
-def _cases(node: Expr) -> Iterator[tuple[Expr, Boolean]]:
+def _cases(node: Expr) -> list[tuple[Expr, Boolean]]:
     """The values of a branching function, each with its condition; the first that holds counts."""
-    match node:
-        case Piecewise():
-            yield from node.args
-        case Max() | Min():
-            sense = 1 if isinstance(node, Max) else -1
-            for i, value in enumerate(node.args):
-                others = (sense * (value - other) for other in node.args[i + 1 :])
-                yield value, And(*(difference > 0 for difference in others))
-        case Abs():
-            yield node.args[0], node.args[0] > 0
-            yield -node.args[0], S.true
-        case sign() | Heaviside():
-            yield S.One, node.args[0] > 0
-            yield S.NegativeOne if isinstance(node, sign) else S.Zero, S.true
+    if isinstance(node, Piecewise):
+        return [*node.args]
+    given = {Dummy(real=True): arg for arg in node.args}
+    cases = node.func(*given).rewrite(Piecewise).args
+    return [(value.xreplace(given), condition.xreplace(given)) for value, condition in cases]
 
 
 def _switching_points(name: str, cases: list[tuple[Expr, Boolean]]) -> list[Expr]:

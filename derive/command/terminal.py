@@ -8,7 +8,7 @@ import os
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
 from shutil import get_terminal_size, which
 from textwrap import fill
@@ -34,11 +34,9 @@ PATIENCE = 10.0
 """Seconds after which a line says what is taking so long, if standard error is not a terminal."""
 
 
-@contextmanager
-def status(words: str) -> Iterator[Callable[[str], None]]:
-    """A spinner with a caption that the yielded function changes."""
-    with _moving((SpinnerColumn(), _CAPTION), words, None) as update:
-        yield lambda words: update(words, 0)
+def status(words: str) -> AbstractContextManager[object]:
+    """A spinner with a caption."""
+    return _moving((SpinnerColumn(), _CAPTION), words, None)
 
 
 @contextmanager

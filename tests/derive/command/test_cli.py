@@ -411,8 +411,7 @@ def test_what_takes_long_is_told_once_where_nothing_moves(
     with derive.command.terminal.progress(1, STAGES) as step:
         step("a", STAGES[3])
         time.sleep(0.2)
-    with derive.command.terminal.status("reading") as update:
-        update("b: reading g(x)")
+    with derive.command.terminal.status("b: reading g(x)"):
         time.sleep(0.2)
     first, second = capsys.readouterr().err.splitlines()
     assert first.endswith(" 0.05 s: a: proving")
