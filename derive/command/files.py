@@ -59,21 +59,13 @@ def demand_writable(path: Path) -> None:
     Nothing is created.  Folders on the way that do not exist are taken to be created as well.
     """
     here = path.absolute()
-    _exists(here)
-    folder = next(each for each in here.parents if _exists(each))
+    with suppress(FileNotFoundError):
+        here.lstat()  # fails if nothing can be at this path, such as below a file
+    folder = next(each for each in here.parents if os.path.lexists(each))
     if not folder.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(folder))
     if not os.access(folder, os.W_OK | os.X_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(folder))
-
-
-def _exists(path: Path) -> bool:
-    """Whether there is anything at a path; raises OSError if nothing can be there."""
-    try:
-        path.lstat()
-    except FileNotFoundError:
-        return False
-    return True
 
 
 @contextmanager

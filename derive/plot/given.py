@@ -7,8 +7,8 @@ import numpy as np
 
 from derive.plot.measure import Array
 
-NONE = 0
-"""The code of `Regime` in every generated module for what is no half-cycle of a contact."""
+NONE, MODERATE, LARGE, MIXED = range(4)
+"""The codes of `Regime` in every generated module; NONE is what is no half-cycle of a contact."""
 
 ROUNDING = 1e-6
 """Allowance for rounding: relative to the contact width, and to f p."""

@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from derive.plot.given import demand_contact, demand_labels, demand_numbers, zone_of
+from derive.plot.given import MIXED, demand_contact, demand_labels, demand_numbers, zone_of
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, canvas
-from derive.plot.zones import AREAS, MIXED, key, regime_in_words, senses
+from derive.plot.zones import AREAS, key, regime_in_words, senses
 
 SAMPLES = 401
 """Number of points along a contact, minus one; they are closer together towards its edges."""

@@ -9,12 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from scipy.ndimage import binary_dilation
 
-from derive.plot.given import positions_of, row, times
+from derive.plot.given import LARGE, MIXED, MODERATE, positions_of, row, times
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import FORWARD, LINES, REVERSE, STICK, canvas, style
-
-MODERATE, LARGE, MIXED = 1, 2, 3
-"""The codes of `Regime` in every generated module."""
 
 STILL = 1e-9
 """Slip below this fraction of the largest slip is treated as zero."""
