@@ -180,19 +180,11 @@ def _between(expr: Expr, lower: Expr, upper: Expr) -> list[Boolean] | None:
         return _at_least_zero(_terms(expr.subs(x, lower + t), t))
     if upper != oo:
         return _at_least_zero(_terms(expr.subs(x, upper - t), t))
-    return _everywhere(expr, t)
-
-
-def _everywhere(expr: Expr, t: Symbol) -> list[Boolean] | None:
-    """The same on the whole axis, split at the mean of the roots, or at the origin."""
     poly = Poly(expr, x)
-    if poly.degree() % 2:
-        return None
-    for middle in (-poly.nth(poly.degree() - 1) / (poly.degree() * poly.LC()), Integer(0)):
-        right, left = (_at_least_zero(_terms(expr.subs(x, middle + s * t), t)) for s in (1, -1))
-        if right is not None and left is not None:
-            return list(dict.fromkeys([*right, *left]))
-    return None
+    mean = -poly.nth(poly.degree() - 1) / (poly.degree() * poly.LC())  # of the roots
+    moved = expr.subs(x, x + mean)
+    right, left = _between(moved, Integer(0), oo), _between(moved, -oo, Integer(0))
+    return None if right is None or left is None else list(dict.fromkeys([*right, *left]))
 
 
 def _terms(expr: Expr, t: Symbol) -> Terms:

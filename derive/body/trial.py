@@ -9,10 +9,12 @@ places at which a curvature may be negative or undefined (lows.py), and many dig
 """
 
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import islice, pairwise, product
 
-from sympy import Expr, Float, I, Integer, Max, Min, Pow, Rational, Symbol
+import mpmath
+from mpmath import mpf
+from sympy import Expr, Integer, Pow, Rational, Symbol, lambdify
 from sympy.logic.boolalg import Boolean
 
 from derive.body.lows import Lows
@@ -27,7 +29,7 @@ _WIDE = 48
 _LEAST, _GREATEST = Rational(1, 1000), Integer(1000)
 """Smallest and largest value of those parameters."""
 _DIGITS = 30
-"""Digits to which SymPy computes a curvature; it takes more of them where terms cancel."""
+"""Digits to which a curvature is computed; three times as many where it seems to be negative."""
 _ENOUGH = 10
 """If this many of 40 sets around typical parameters meet the conditions, no more are needed."""
 
@@ -195,11 +197,16 @@ def _demand_steps(pieces: list[Piece], values: Values) -> None:
 
 
 class _Curve:
-    """The curvature of a piece and its profile, with the search that is compiled once."""
+    """The curvature of a piece and its profile, compiled once for all parameters."""
 
     def __init__(self, piece: Piece, domain: tuple[Expr, Expr], symbols: list[Symbol]) -> None:
-        self._formulas = piece.curvature, piece.profile
-        self._lower, self._upper = Max(piece.lower, domain[0]), Min(piece.upper, domain[1])
+        self._curvature, self._profile = (
+            lambdify([x, *symbols], expr, modules="mpmath", dummify=True)
+            for expr in (piece.curvature, piece.profile)
+        )
+        self._ends = lambdify(
+            symbols, [piece.lower, piece.upper, *domain], modules="mpmath", dummify=True
+        )
         self._lows = Lows(piece, symbols)
 
     def demand(self, values: Values) -> None:
@@ -207,12 +214,29 @@ class _Curve:
 
         The profile must be real too: log(x) is not real for x < 0, but its curvature is.
         """
-        lower, upper = (float(end.subs(values)) for end in (self._lower, self._upper))
-        for place in self._lows.places([*map(float, values.values())], lower, upper):
-            at = {x: Float(place, _DIGITS), **values}
-            curvature, profile = (f.evalf(_DIGITS, subs=at) for f in self._formulas)
-            if curvature.has(I) or profile.has(I):
-                raise _Fault(f"is not real near x = {place:.3g}", values, real=False)
-            if curvature.is_comparable and curvature < 0:  # and not zero, to no digit at all
-                how = f"its curvature is negative near x = {place:.3g}"
-                raise _Fault(how, values)
+        with mpmath.workdps(_DIGITS):
+            given = [mpf(value.p) / value.q for value in values.values()]
+            lower, upper, first, last = map(mpf, self._ends(*given))
+            lower, upper = max(lower, first), min(upper, last)
+            found = self._lows.places([*map(float, given)], float(lower), float(upper))
+            for place in (p for p in map(mpf, found) if lower < p < upper):
+                value = _value(self._curvature, place, given)
+                if any(map(mpmath.im, (value, _value(self._profile, place, given)))):
+                    raise _Fault(f"is not real near x = {float(place):.3g}", values, real=False)
+                if mpmath.re(value) < 0 and self._is_sure(place, value, given):
+                    how = f"its curvature is negative near x = {float(place):.3g}"
+                    raise _Fault(how, values)
+
+    def _is_sure(self, place: mpf, value: mpf, given: list[mpf]) -> bool:
+        """Whether the sign of a value is certain and not the result of cancellation."""
+        with mpmath.workdps(3 * _DIGITS):
+            again = _value(self._curvature, place, given)
+            return bool(abs(again - value) < abs(again) / 1000)
+
+
+def _value(function: Callable[..., mpf], place: mpf, given: list[mpf]) -> mpf:
+    """The curvature or the profile; zero where it is undefined."""
+    try:
+        return function(place, *given)
+    except (ZeroDivisionError, OverflowError):
+        return mpf(0)
