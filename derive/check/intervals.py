@@ -17,13 +17,12 @@ from typing import Any
 import sympy as sp
 from flint import acb, arb
 from sympy import Expr, Symbol
-from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
 
 from derive.check.claim import Range
 from derive.check.zero import is_too_long, vanishes_at
 from derive.command.limit import LookAtClock
-from derive.proof.balls import FUNCTIONS, Ball, digits, power, root
+from derive.proof.balls import Ball, digits, hull
 from derive.proof.values import Undecided, program
 from derive.reading.relation import Relation
 
@@ -153,25 +152,25 @@ class _Search:
 
     def _met(self, box: Box) -> list[bool | None]:
         """Whether each condition is met on a box; None if it is not met everywhere."""
-        balls = {symbol: _hull(*map(_exact, span)) for symbol, span in box.items()}
-        return [enclosed(each, balls) for each in self.conditions]
+        balls = {symbol: hull(*map(_exact, span)) for symbol, span in box.items()}
+        return [_over(each, balls) for each in self.conditions]
 
     def false_in_next(self) -> dict[Symbol, Fraction] | None:
         """Decide, reduce or divide the next box; return its middle if the inequality is false."""
         *_, depth, _, box = heappop(self.boxes)
-        balls, middle = {s: _hull(*map(_exact, of)) for s, of in box.items()}, _middle(box)
+        balls, middle = {s: hull(*map(_exact, of)) for s, of in box.items()}, _middle(box)
         met = self._met(box)
         if False in met:
             return None
-        value = enclosed(self.gap, balls)
+        value = _over(self.gap, balls)
         if self._is_met(value):
             return None
         at_middle = {symbol: _exact(place) for symbol, place in middle.items()}
         here = _at(self.gap, at_middle)
-        is_inside = all(enclosed(each, at_middle) for each in self.conditions)
+        is_inside = all(_over(each, at_middle) for each in self.conditions)
         if is_inside and isinstance(here, arb) and here < 0:
             return middle
-        slopes = {symbol: enclosed(rate, balls) for symbol, rate in self.rates.items()}
+        slopes = {symbol: _over(rate, balls) for symbol, rate in self.rates.items()}
         lowest = float(value.real.lower()) if value.is_finite() else -inf
         known = [here, *slopes.values()]
         if slopes and all(isinstance(v, arb) and v.is_finite() for v in known):
@@ -219,73 +218,9 @@ def _face(span: tuple[Fraction, Fraction], slope: arb) -> tuple[Fraction, Fracti
     return (low, low) if slope > 0 else (high, high) if slope < 0 else span
 
 
-# ------------------------------------------------------------------ enclosures
-
-
-def enclosed(node: sp.Basic, box: Mapping[Symbol, Ball]) -> Any:
+def _over(expr: sp.Basic, box: Mapping[Symbol, Ball]) -> Any:
     """All values over a box: a ball, or for a condition True, False or None (either)."""
-    known: dict[sp.Basic, Any] = dict(box)
-
-    def of(node: sp.Basic) -> Any:
-        if node not in known:
-            known[node] = _value(node)
-        return known[node]
-
-    def _value(node: sp.Basic) -> Any:
-        if node.is_Atom:
-            return _at(node, {})
-        if isinstance(node, sp.Piecewise):
-            return _branches(node)
-        parts = [of(arg) for arg in node.args]
-        if isinstance(node, Relational):
-            return _compared(node, acb(parts[0]) - acb(parts[1]))
-        if isinstance(node, sp.Not):
-            return None if parts[0] is None else not parts[0]
-        if isinstance(node, sp.And | sp.Or):
-            decisive = isinstance(node, sp.Or)
-            return decisive if decisive in parts else None if None in parts else not decisive
-        if isinstance(node, sp.Pow):
-            return _power(node.exp, *parts)
-        return FUNCTIONS[node.func](*parts) if node.func in FUNCTIONS else arb("nan")
-
-    def _branches(node: sp.Piecewise) -> Ball:
-        found = None
-        for pair in node.args:
-            met = of(pair.cond)
-            if met is not False:
-                value = of(pair.expr)
-                found = value if found is None else _hull(found, value)
-            if met is True:
-                break
-        return arb("nan") if found is None else found
-
-    return of(node)
-
-
-def _compared(node: Relational, gap: acb) -> bool | None:
-    """Whether a relation between two sides is met; None if both is possible."""
-    if not gap.imag.contains(0):
-        return None
-    below, above = bool(gap.real < 0), bool(gap.real > 0)
-    if not below and not above:
-        return None
-    if isinstance(node, sp.Eq | sp.Ne):
-        return isinstance(node, sp.Ne)
-    return below == isinstance(node, sp.Lt | sp.Le)
-
-
-def _power(exponent: Expr, base: Ball, value: Ball) -> Ball:
-    if exponent.is_Integer and isinstance(base, arb):
-        size = abs(base) if exponent.is_even else base
-        least = size.lower().max(arb(0)) if exponent.is_even else size.lower()
-        found: Ball = _hull(least ** abs(int(exponent)), size.upper() ** abs(int(exponent)))
-        return found if exponent > 0 else 1 / found
-    if exponent.is_Rational and exponent.q == 2:
-        if isinstance(base, arb) and base.contains(0):  # below zero, the root is imaginary
-            parts = [arb(0).union(each.upper().sqrt()) for each in (base, -base)]
-            return power(acb(*parts), int(exponent.p))
-        return power(root(base), int(exponent.p))
-    return power(base, value)
+    return program(expr, boxes=True)(box)
 
 
 def _at(expr: Expr, point: Mapping[Symbol, Ball]) -> Ball:
@@ -299,9 +234,3 @@ def _at(expr: Expr, point: Mapping[Symbol, Ball]) -> Ball:
 
 def _exact(number: Fraction) -> arb:
     return arb(number.numerator) / number.denominator
-
-
-def _hull(one: Ball, other: Ball) -> Ball:
-    if isinstance(one, arb) and isinstance(other, arb):
-        return one.union(other)
-    return acb(one).union(acb(other))

@@ -7,10 +7,10 @@ Every function below rounds outwards: the true value lies inside the ball.  A ba
 unbounded counts as not a number.
 """
 
+import operator
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from functools import reduce
-from operator import add, mul
 from typing import Any, TypeAlias
 
 import mpmath
@@ -22,6 +22,7 @@ from mpmath.libmp import from_man_exp
 Ball: TypeAlias = arb | acb
 Value: TypeAlias = mpf | mpc
 Function: TypeAlias = Callable[[Ball], Ball]
+Operation: TypeAlias = Callable[..., Any]
 
 _BITS = 3.3219280948873626
 """Bits per digit."""
@@ -85,19 +86,31 @@ _root_of_sign = _real_or_complex("sqrt")
 
 def root(value: Ball) -> Ball:
     """The square root; the part below zero of a ball around zero is due to rounding."""
-    if isinstance(value, arb) and value.contains(0) and not value.is_zero():
-        return arb(0).union(value.upper().sqrt())
+    if isinstance(value, arb):
+        found = value.sqrt()
+        if found.is_finite():
+            return found
+        if value.contains(0):
+            return arb(0).union(value.upper().sqrt())
     return _root_of_sign(value)
 
 
-def power(base: Ball, exponent: Ball | int) -> Ball:
-    """base**exponent, likewise; products, which have a value around zero, for integers."""
-    if isinstance(exponent, int):
-        if exponent < 0:
-            return 1 / power(base, -exponent)
-        if exponent > _LONGEST:
-            return base**exponent
-        return base * base if exponent == 2 else reduce(mul, [base] * exponent)
+def root_over(value: Ball) -> Ball:
+    """The square roots of all numbers in a ball, of which those below zero have imaginary ones."""
+    if isinstance(value, arb) and value.contains(0):
+        return acb(*(arb(0).union(each.upper().sqrt()) for each in (value, -value)))
+    return root(value)
+
+
+def hull(one: Ball, other: Ball) -> Ball:
+    """A ball that holds two."""
+    if isinstance(one, arb) and isinstance(other, arb):
+        return one.union(other)
+    return acb(one).union(acb(other))
+
+
+def power(base: Ball, exponent: Ball) -> Ball:
+    """base**exponent, likewise."""
     if isinstance(base, arb) and isinstance(exponent, arb):
         if base.contains(0) and exponent > 0:
             return arb(0) if base.is_zero() else arb(0).union(base.upper() ** exponent)
@@ -106,13 +119,64 @@ def power(base: Ball, exponent: Ball | int) -> Ball:
     return base**exponent
 
 
+def product(exponent: int) -> Operation:
+    """The function base**exponent, as a product, which has a value around zero, too."""
+    if exponent < 0:
+        below = product(-exponent)
+        return lambda base: 1 / below(base)
+    if exponent == 1:
+        return lambda base: base
+    if exponent > _LONGEST:
+        return lambda base: base**exponent
+    return lambda base: reduce(operator.mul, [base] * exponent)
+
+
+def power_over(exponent: int) -> Operation:
+    """The function base**exponent, whose value holds the powers of all numbers in a ball."""
+    of_rounded = product(exponent)
+
+    def of(base: Ball) -> Ball:
+        if not isinstance(base, arb):
+            return of_rounded(base)
+        size = abs(base) if exponent % 2 == 0 else base
+        least = size.lower().max(arb(0)) if exponent % 2 == 0 else size.lower()
+        found = hull(least ** abs(exponent), size.upper() ** abs(exponent))
+        return found if exponent > 0 else 1 / found
+
+    return of
+
+
 def _sign(value: Ball) -> Ball:
     return value.sgn()
 
 
-def _compared(holds: Callable[[arb], bool]) -> Callable[[Ball, Ball], bool]:
-    """A condition, decided by the midpoints of two balls."""
-    return lambda one, other: holds((acb(one) - acb(other)).real.mid())
+Truth: TypeAlias = bool | None
+"""Of a condition on balls; None if it may be either."""
+
+
+def _compared(met: Operation, missed: Operation) -> Callable[[Ball, Ball], Truth]:
+    """A condition on two balls, by two relations, each of which is only true if it is certain."""
+
+    def condition(one: Ball, other: Ball) -> Truth:
+        gap = acb(one) - acb(other)
+        if not gap.imag.contains(0):
+            return None
+        return True if met(gap.real, 0) else False if missed(gap.real, 0) else None
+
+    return condition
+
+
+def _not(condition: Truth) -> Truth:
+    return None if condition is None else not condition
+
+
+def _any(decisive: bool) -> Callable[..., Truth]:
+    """Whether a condition among several decides all: a true one for Or, a false one for And."""
+
+    def condition(*parts: Truth) -> Truth:
+        return decisive if decisive in parts else None if None in parts else not decisive
+
+    return condition
 
 
 FUNCTIONS: dict[type, Callable[..., Any]] = {
@@ -123,8 +187,6 @@ FUNCTIONS: dict[type, Callable[..., Any]] = {
             *("sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "gamma"),
         )
     },
-    sympy.Add: lambda *values: reduce(add, values),
-    sympy.Mul: lambda *values: reduce(mul, values),
     sympy.Abs: abs,
     sympy.sign: _sign,
     sympy.Heaviside: lambda value, _: (1 + _sign(value)) / 2,
@@ -134,16 +196,16 @@ FUNCTIONS: dict[type, Callable[..., Any]] = {
     sympy.elliptic_k: lambda m: _real(acb(m).elliptic_k()),
     sympy.elliptic_e: lambda m: _real(acb(m).elliptic_e()),
     sympy.elliptic_pi: lambda n, m: _real(acb.elliptic_pi(acb(n), acb(m))),
-    sympy.And: lambda *conditions: all(conditions),
-    sympy.Or: lambda *conditions: any(conditions),
-    sympy.ITE: lambda condition, one, other: one if condition else other,
-    sympy.Not: lambda condition: not condition,
-    sympy.StrictLessThan: _compared(lambda gap: gap < 0),
-    sympy.LessThan: _compared(lambda gap: gap <= 0),
-    sympy.StrictGreaterThan: _compared(lambda gap: gap > 0),
-    sympy.GreaterThan: _compared(lambda gap: gap >= 0),
-    sympy.Equality: _compared(lambda gap: gap == 0),
-    sympy.Unequality: _compared(lambda gap: gap != 0),
+    sympy.And: _any(False),
+    sympy.Or: _any(True),
+    sympy.ITE: lambda condition, *both: None if condition is None else both[not condition],
+    sympy.Not: _not,
+    sympy.StrictLessThan: _compared(operator.lt, operator.ge),
+    sympy.LessThan: _compared(operator.le, operator.gt),
+    sympy.StrictGreaterThan: _compared(operator.gt, operator.le),
+    sympy.GreaterThan: _compared(operator.ge, operator.lt),
+    sympy.Equality: _compared(operator.eq, operator.ne),
+    sympy.Unequality: _compared(operator.ne, operator.eq),
 }
 """What SymPy's functions are for balls."""
 

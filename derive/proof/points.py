@@ -17,7 +17,8 @@ from sympy import Expr, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.body.geometry import Geometry
-from derive.proof.values import Undefined, evaluated
+from derive.proof.balls import digits
+from derive.proof.values import Undefined, evaluated, program
 from derive.proof.verdict import POINTS
 from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
@@ -151,7 +152,8 @@ _LEANING = 40
 
 def holds(conditions: Iterable[Boolean], point: Point) -> bool:
     """Whether a point meets all conditions."""
-    return all(bool(condition.subs(point)) for condition in conditions)
+    with digits(mpmath.mp.dps):
+        return all(program(condition)(point) for condition in conditions)
 
 
 def named(point: Point) -> str:

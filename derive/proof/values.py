@@ -8,14 +8,16 @@ of the value, the steps are repeated with more of them.
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache, lru_cache
+from functools import cache, lru_cache, reduce
 from itertools import pairwise
+from operator import add, mul
 from typing import Any
 
 import mpmath
 from flint import acb, arb, ctx
 from mpmath import mpc, mpf
 from sympy import (
+    Add,
     Basic,
     Derivative,
     DiracDelta,
@@ -23,6 +25,7 @@ from sympy import (
     Float,
     I,
     Integral,
+    Mul,
     Piecewise,
     Pow,
     Rational,
@@ -42,25 +45,26 @@ from derive.proof.balls import (
     FUNCTIONS,
     Ball,
     Function,
+    Operation,
     Value,
     ball,
     digits,
+    hull,
     known_digits,
     number,
     power,
+    power_over,
+    product,
     root,
+    root_over,
 )
 from derive.proof.kinks import is_unbounded, places
 from derive.proof.rule import checked, integral
 
 Numbers = Mapping[Symbol, Any]
 """Numbers of mpmath, or balls, for symbols."""
-Operation = Callable[..., Any]
-Step = tuple[int, Operation | None, tuple[Any, ...]]
-"""The number of a value, how it is computed, and the numbers of the values it is computed from; or
-None, and branches, the first of whose conditions is met has the value."""
-Branch = tuple[int, list[Step], int]
-"""The number of a condition, the steps that are done if it is met, and the number of the value."""
+Step = tuple[int, Callable[[list[Any]], Any]]
+"""The number of a value, and how it is computed from the values before it."""
 
 _GUARD = 6
 """Additional digits of a first attempt."""
@@ -119,12 +123,13 @@ class Program:
     """An expression as steps on balls; repeated subexpressions are computed once.
 
     If `along` is given, steps that do not depend on this symbol are done once for all its values.
-    Of a function by branches only the branch that is taken is computed.
+    Of a function by branches only those that may be taken are computed.
     twice: whether each integral is computed twice, to know its digits.
+    boxes: whether balls stand for all numbers in them, and not for one that is rounded.
     """
 
-    def __init__(self, expr: Basic, along: Symbol | None, twice: bool) -> None:
-        self._along, self._twice = along, twice
+    def __init__(self, expr: Basic, along: Symbol | None, twice: bool, boxes: bool) -> None:
+        self._along, self._twice, self._boxes = along, twice, boxes
         symbols = sorted(expr.free_symbols, key=str)
         self._number: dict[Basic, int] = {symbol: n for n, symbol in enumerate(symbols)}
         self._given = [(n, symbol) for n, symbol in enumerate(symbols) if symbol != along]
@@ -134,23 +139,56 @@ class Program:
 
     def _add(self, node: Basic) -> int:
         """Add the steps for a part of the expression; return the number of its value."""
-        if node in self._number:
-            return self._number[node]
-        args: tuple[Any, ...]
-        if isinstance(node, Piecewise):
-            operation, moves = None, self._along in node.free_symbols
-            args = tuple(self._branch(pair.expr, pair.cond, moves) for pair in node.args)
-        else:
-            operation, parts = self._operation(node)
-            args = tuple(map(self._add, parts))
-            moves = any(self._moves[arg] for arg in args)
-        place = self._number[node] = len(self._moves)
+        if node not in self._number:
+            if isinstance(node, Piecewise):
+                place = self._add_branches(node)
+            elif isinstance(node, Add | Mul):
+                place, *others = sorted(map(self._add, node.args), key=self._moves.__getitem__)
+                for other in others:
+                    place = self._add_operation(_OF_TWO[node.func], place, other)
+            else:
+                operation, parts = self._operation(node)
+                place = self._add_operation(operation, *map(self._add, parts))
+            self._number[node] = place
+        return self._number[node]
+
+    def _add_operation(self, operation: Operation, *args: int) -> int:
+        """Add the step that computes a value from the values of these numbers."""
+        moves = any(self._moves[arg] for arg in args)
+        if len(args) == 2:
+            one, other = args
+            return self._add_step(lambda values: operation(values[one], values[other]), moves)
+        if len(args) == 1:
+            (one,) = args
+            return self._add_step(lambda values: operation(values[one]), moves)
+        return self._add_step(lambda values: operation(*[values[arg] for arg in args]), moves)
+
+    def _add_step(self, computed: Callable[[list[Any]], Any], moves: bool) -> int:
+        place = len(self._moves)
         self._moves.append(moves)
-        self._steps[moves].append((place, operation, args))
+        self._steps[moves].append((place, computed))
         return place
 
-    def _branch(self, value: Expr, condition: Basic, moves: bool) -> Branch:
-        """A branch; what is computed only in it is not known outside it."""
+    def _add_branches(self, node: Piecewise) -> int:
+        moves = self._along in node.free_symbols
+        branches = [self._branch(pair.expr, pair.cond, moves) for pair in node.args]
+
+        def computed(values: list[Any]) -> Ball:
+            taken = []
+            for condition, steps, found in branches:
+                if values[condition] is not False:
+                    taken.append(_filled(values, steps)[found])
+                if values[condition] is True:
+                    break
+            return reduce(hull, taken) if taken else arb("nan")
+
+        return self._add_step(computed, moves)
+
+    def _branch(self, value: Expr, condition: Basic, moves: bool) -> tuple[int, list[Step], int]:
+        """The number of a condition, the steps of its branch, and the number of their result.
+
+        What is computed only in the branch is not known outside it.
+        """
         holds = self._add(condition)
         known, outside = self._number.copy(), self._steps[moves]
         steps = self._steps[moves] = []
@@ -159,6 +197,7 @@ class Program:
         return holds, steps, found
 
     def _operation(self, node: Basic) -> tuple[Operation, tuple[Basic, ...]]:
+        """How a part is computed, and from which parts."""
         if node in _CONSTANTS:
             return _CONSTANTS[node], ()
         if isinstance(node, BooleanAtom):
@@ -167,20 +206,28 @@ class Program:
             return (lambda: arb(node.p) / node.q), ()
         if isinstance(node, Float):
             return (lambda: ball(mpf(node._mpf_))), ()
+        if isinstance(node, Pow):
+            return self._power(node)
+        if node.func in FUNCTIONS:
+            return FUNCTIONS[node.func], node.args
+        held = tuple(sorted(node.free_symbols, key=str))
+        if self._boxes:
+            return (lambda *_: arb("nan")), held
         if isinstance(node, Integral):
-            held = tuple(sorted(node.free_symbols, key=str))
             twice = self._twice
             return (lambda *v: _integrated(node, dict(zip(held, v, strict=True)), twice)), held
-        if isinstance(node, Pow):
-            exponent = int(node.exp) if node.exp.is_Integer else 0
-            if exponent:
-                return (lambda base: power(base, exponent)), (node.base,)
-            if abs(node.exp) == S.Half:
-                return (root if node.exp.is_positive else _over_root), (node.base,)
+        return _by_mpmath(node), held
+
+    def _power(self, node: Pow) -> tuple[Operation, tuple[Basic, ...]]:
+        """A power; of half an integer, it is one of the root, and of an integer a product."""
+        exponent = node.exp if node.exp.is_Rational else S.Zero
+        if exponent == 0 or exponent.q > 2:
             return power, node.args
-        if node.func in FUNCTIONS:
-            return FUNCTIONS[node.func], tuple(node.args)
-        return _by_mpmath(node), tuple(sorted(node.free_symbols, key=str))
+        whole = power_over(exponent.p) if self._boxes else product(exponent.p)
+        if exponent.q == 1:
+            return whole, (node.base,)
+        rooted = root_over if self._boxes else root
+        return (lambda base: whole(rooted(base))), (node.base,)
 
     def __call__(self, numbers: Numbers) -> Any:
         """The value for the numbers of all symbols."""
@@ -211,18 +258,12 @@ class Program:
 
 
 def _filled(values: list[Any], steps: list[Step]) -> list[Any]:
-    for place, operation, args in steps:
-        if operation is None:
-            taken = next((each[1:] for each in args if values[each[0]]), None)
-            values[place] = arb("nan") if taken is None else _filled(values, taken[0])[taken[1]]
-        else:
-            values[place] = operation(*[values[arg] for arg in args])
+    for place, computed in steps:
+        values[place] = computed(values)
     return values
 
 
-def _over_root(value: Ball) -> Ball:
-    return 1 / root(value)
-
+_OF_TWO: dict[type, Operation] = {Add: add, Mul: mul}
 
 _CONSTANTS: dict[Basic, Operation] = {
     pi: arb.pi,
@@ -236,9 +277,11 @@ _CONSTANTS: dict[Basic, Operation] = {
 
 
 @lru_cache(maxsize=5000)
-def program(expr: Expr, along: Symbol | None = None, twice: bool = True) -> Program:
+def program(
+    expr: Basic, along: Symbol | None = None, twice: bool = True, boxes: bool = False
+) -> Program:
     """The steps of an expression."""
-    return Program(expr, along, twice)
+    return Program(expr, along, twice, boxes)
 
 
 def _by_mpmath(node: Basic) -> Operation:
