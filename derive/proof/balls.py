@@ -158,10 +158,10 @@ def _compared(met: Operation, missed: Operation) -> Callable[[Ball, Ball], Truth
     """A condition on two balls, by two relations, each of which is only true if it is certain."""
 
     def condition(one: Ball, other: Ball) -> Truth:
-        gap = acb(one) - acb(other)
-        if not gap.imag.contains(0):
-            return None
-        return True if met(gap.real, 0) else False if missed(gap.real, 0) else None
+        gap = one - other
+        if isinstance(gap, acb):
+            gap = _ordered(gap)
+        return True if met(gap, 0) else False if missed(gap, 0) else None
 
     return condition
 

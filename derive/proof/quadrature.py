@@ -6,6 +6,7 @@ Out: its value by the integrals of theory.equilibrium and theory.pressure, befor
 """
 
 from sympy import (
+    ITE,
     Expr,
     Integral,
     Max,
@@ -66,6 +67,7 @@ def _over_w(density: Expr) -> Expr:
 def slope_as_given(g: Expr) -> Expr:
     """g'(x) by branches; each is differentiated alone if the whole would divide zero by zero."""
     branched = g.replace(Max, _larger).replace(Min, _smaller).rewrite(Piecewise)
+    branched = branched.replace(ITE, lambda holds, one, other: (holds & one) | (~holds & other))
     slope = diff(branched, x)
     if slope.has(zoo, nan):
         folded = piecewise_fold(branched)

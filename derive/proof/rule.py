@@ -33,7 +33,7 @@ _CONVERGED = 0.6
 """A next sum would double the number of certain digits: two that share this fraction suffice."""
 _SLOW = 1.4
 """Gauss's sums converge if the relative gap decreases at least to this power of the one before."""
-_GAUSS = tuple(3 * 2**n for n in (2, 3, 4, 5, 6))
+_GAUSS = (18, 36, 72, 144, 288)
 """Numbers of Gauss's nodes."""
 _HALVINGS = 9
 """Number of times that the distance between clustered nodes is halved."""
