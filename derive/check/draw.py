@@ -26,7 +26,9 @@ from sympy.logic.boolalg import Boolean
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from derive.check.claim import SCALE, Claim, Point, Range
+from derive.proof.balls import digits
 from derive.proof.kinks import peaked, switches
+from derive.proof.values import Undecided, program
 from derive.sheet.notation import text_of
 
 POINTS = 24
@@ -115,19 +117,19 @@ def is_allowed(claim: Claim, point: Point) -> bool:
 
 def is_met(condition: Boolean, point: Point) -> bool:
     """Whether a condition is true at a point, and not undefined there."""
-    met, held = _compiled(condition, "mpmath")
-    try:
-        return bool(met(*(point[symbol] for symbol in held)))
-    except (ArithmeticError, KeyError, TypeError, ValueError):
-        return False
+    with digits(mpmath.mp.dps):
+        try:
+            return bool(program(condition)(point))
+        except (KeyError, Undecided):
+            return False
 
 
 @cache
-def _compiled(expr: Expr, module: str) -> tuple[Callable[..., Any], list[Symbol]]:
+def _compiled(expr: Expr) -> tuple[Callable[..., Any], list[Symbol]]:
     """Return an expression as a function of its symbols, which gives NaN if it has no rule."""
     held = sorted(expr.free_symbols, key=in_order)
     try:
-        return lambdify(held, expr, modules=module), held
+        return lambdify(held, expr, modules="numpy"), held
     except PrintMethodNotImplementedError:
         return lambda *_: nan, held
 
@@ -317,7 +319,7 @@ def _at(span: Range, share: float) -> float:
 
 def along(expr: Expr, variable: Symbol, point: Point, values: Any) -> Any:
     """Evaluate an expression along a variable in double precision, with NaN if that fails."""
-    of, held = _compiled(expr, "numpy")
+    of, held = _compiled(expr)
     with np.errstate(all="ignore"):
         try:
             found = of(*(values if s == variable else float(point[s]) for s in held))

@@ -11,13 +11,13 @@ from functools import cached_property
 from typing import Any
 
 import mpmath
-from flint import arb, ctx
+from flint import arb
 from mpmath import mpf
 from sympy import Expr, Integral, Symbol
 
 from derive.check.claim import Claim, Meaning, Point
-from derive.proof.balls import Ball, Value, digits
-from derive.proof.values import Undecided, enclosed, evaluated, program
+from derive.proof.balls import Value, digits
+from derive.proof.values import Defined, Undecided, enclosed, evaluated, program
 from derive.proof.verdict import DIGITS, shared_digits
 
 _WORKING, _WITH_INTEGRALS = 114, 36
@@ -69,27 +69,6 @@ class Pair:
         return abs(self.left - self.right)
 
 
-class _Values(dict[Symbol, Any]):
-    """Values of the variables, and of the source's symbols as soon as they are needed.
-
-    The latter are computed once for each number of working digits.
-    """
-
-    def __init__(self, point: Point, meaning: Meaning) -> None:
-        super().__init__(point)
-        self.point, self.meaning = point, meaning
-        self.known: dict[tuple[Symbol, int], Ball] = {}
-
-    def __missing__(self, symbol: Symbol) -> Ball:
-        key = symbol, ctx.prec
-        if key not in self.known:
-            meant = self.meaning.get(symbol, symbol)
-            if missing := meant.free_symbols - self.point.keys():
-                raise Undecided(f"the symbol {missing.pop()} has no meaning")
-            self.known[key] = program(meant)(self.point)
-        return self.known[key]
-
-
 @dataclass(frozen=True)
 class Sides:
     """Two sides of a claim, with the meanings of their symbols.
@@ -101,7 +80,7 @@ class Sides:
     left: Expr
     right: Expr
     meaning: Meaning
-    known: dict[tuple[tuple[Symbol, mpf], ...], _Values] = field(default_factory=dict)
+    known: dict[tuple[tuple[Symbol, mpf], ...], Defined] = field(default_factory=dict)
 
     @classmethod
     def printed(cls, claim: Claim) -> "Sides":
@@ -131,9 +110,9 @@ class Sides:
         sides = self.left, self.right
         return self.in_variables if any(side.has(Integral) for side in sides) else sides
 
-    def _values(self, point: Point) -> _Values:
-        """The values of the symbols at a point."""
-        return self.known.setdefault((*point.items(),), _Values(point, self.meaning))
+    def _values(self, point: Point) -> Defined:
+        """The values of the variables, and of the source's symbols, at a point."""
+        return self.known.setdefault((*point.items(),), Defined(point, self.meaning))
 
     def pair(self, point: Point) -> Pair:
         """Both sides at a point; raises Undecided."""

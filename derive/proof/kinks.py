@@ -19,7 +19,6 @@ from sympy import (
     atan2,
     cosh,
     exp,
-    tan,
 )
 from sympy.core.relational import Relational
 
@@ -68,15 +67,6 @@ def _own(expr: Expr) -> Iterator[tuple[str, Expr]]:
         yield "kink", expr.lhs - expr.rhs
     elif expr.func in _SWITCHES:
         yield from _SWITCHES[expr.func](*expr.args)
-
-
-def is_unbounded(expr: Expr, variable: Symbol) -> bool:
-    """Whether a power or a tangent of the variable may make the expression infinite."""
-    return any(
-        (isinstance(n, Pow) and not n.exp.is_nonnegative) or isinstance(n, tan)
-        for n in expr.atoms(Pow, tan)
-        if n.has(variable)
-    )
 
 
 # ------------------------------------------------------------------ zeros along one variable

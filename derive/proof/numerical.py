@@ -8,11 +8,10 @@ from collections.abc import Callable, Iterator
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Integral, Symbol, sqrt
+from sympy import Integral, Symbol, sqrt
 
 from derive.proof.points import Point, contacts, loads, named, numeric
 from derive.proof.quadrature import value_by_quadrature
-from derive.proof.values import Undecided
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import M, P, a, alpha, c, dQ, dsigma, f, m, n, x
@@ -35,8 +34,8 @@ def numeric_proof(sheet: FormulaSheet, name: str) -> Proof | None:
         if sheet[name].arguments[0] == P and name not in _STICK:
             return _substituted(sheet, sheet[name])
         if stem in _OF_G:
-            value = value_by_quadrature(sheet.geometry.g, stem)
-            return _compared(sheet, _OF_G[stem], lambda p: (_at(sheet, name, p), _value(value, p)))
+            value = numeric(value_by_quadrature(sheet.geometry.g, stem))
+            return _compared(sheet, _OF_G[stem], lambda p: (_at(sheet, name, p), value(p)))
     return None
 
 
@@ -52,7 +51,7 @@ def _stuck_between(sheet: FormulaSheet, name: str) -> Route:
     sense = -1 if name == _STICK[0] else 1
     weight = sqrt(((x + m) / (x - n)) ** sense)
     driven = 2 * f * sheet.flat("pressure") * weight
-    driving = Integral(driven, (x, -a, -m)) + Integral(driven, (x, n, c))
+    driving = numeric(Integral(driven, (x, -a, -m)) + Integral(driven, (x, n, c)))
 
     def route(point: Point) -> tuple[mpf, mpf]:
         width = point[a] + point[c]
@@ -62,7 +61,7 @@ def _stuck_between(sheet: FormulaSheet, name: str) -> Route:
         cycle[dsigma] = 4 * cycle[dQ] / (mpmath.pi * width) * point[dsigma]
         cycle[m], cycle[n] = (_at(sheet, end, cycle) for end in _STICK)
         by_tension = mpmath.pi * cycle[dsigma] * (cycle[m] + cycle[n]) / 8
-        return _value(driving, cycle), cycle[dQ] - sense * by_tension
+        return driving(cycle), cycle[dQ] - sense * by_tension
 
     return route
 
@@ -100,15 +99,7 @@ _OF_G = {
 
 def _at(sheet: FormulaSheet, name: str, point: Point) -> mpf:
     """A formula at a point."""
-    return _value(sheet.flat(name), point)
-
-
-def _value(expr: Expr, point: Point) -> mpf:
-    """The value at a point; NaN where no reliable one is obtained."""
-    try:
-        return numeric(expr)(point)
-    except Undecided:
-        return mpf("nan")
+    return numeric(sheet.flat(name))(point)
 
 
 def _names(asked: list[Symbol]) -> str:

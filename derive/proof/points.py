@@ -18,7 +18,7 @@ from sympy.logic.boolalg import Boolean
 
 from derive.body.geometry import Geometry
 from derive.proof.balls import digits
-from derive.proof.values import Undefined, evaluated, program
+from derive.proof.values import Defined, Undecided, evaluated, program
 from derive.proof.verdict import POINTS
 from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
@@ -113,7 +113,7 @@ def _parameters(body: Geometry, rng: random.Random) -> Point:
 
 @cache
 def numeric(expr: Expr) -> Callable[[Point], mpf]:
-    """`expr` as a function of a point, to the working digits of mpmath; NaN if it has none."""
+    """`expr` as a function of a point, to the working digits of mpmath; NaN if some are lost."""
     expr = expr.subs(e, M / P)
     if expr.is_infinite:
         return lambda point: mpmath.inf * (1 if expr.is_extended_positive else -1)
@@ -121,29 +121,16 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
     def at(point: Point) -> mpf:
         try:
             return mpf(evaluated(expr, point, twice=False))
-        except Undefined:
+        except Undecided:
             return mpf("nan")
 
     return at
 
 
 def numeric_by_steps(steps: Iterable[tuple[Symbol, Expr]], expr: Expr) -> Callable[[Point], mpf]:
-    """`expr` as a function of a point; the symbols it contains are computed one after another."""
-    needed: list[tuple[Symbol, Callable[[Point], mpf]]] = []
-    wanted = set(expr.free_symbols)
-    for symbol, value in reversed([*steps]):
-        if symbol in wanted:
-            needed.insert(0, (symbol, numeric(value)))
-            wanted |= value.free_symbols
-    last = numeric(expr)
-
-    def at(point: Point) -> mpf:
-        known = dict(point)
-        for symbol, value in needed:
-            known[symbol] = value(known)
-        return last(known)
-
-    return at
+    """`expr` as a function of a point; the symbols it contains are computed by the steps."""
+    definitions, last = {e: M / P, **dict(steps)}, numeric(expr)
+    return lambda point: last(Defined(point, definitions))
 
 
 _LEANING = 40

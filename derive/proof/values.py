@@ -58,7 +58,7 @@ from derive.proof.balls import (
     root,
     root_over,
 )
-from derive.proof.kinks import is_unbounded, places
+from derive.proof.kinks import places
 from derive.proof.rule import checked, integral
 
 Numbers = Mapping[Symbol, Any]
@@ -88,6 +88,27 @@ class Undecided(ArithmeticError):
 
 class Undefined(Undecided):
     """There is no value at this point, for example after a division by zero."""
+
+
+class Defined(dict[Symbol, Any]):
+    """Numbers of symbols, and of others by their definitions, as soon as they are needed.
+
+    The latter are computed once for each number of digits.
+    """
+
+    def __init__(self, numbers: Numbers, definitions: Mapping[Symbol, Expr]) -> None:
+        super().__init__(numbers)
+        self._definitions = definitions
+        self._known: dict[tuple[Symbol, int], Ball] = {}
+
+    def __missing__(self, symbol: Symbol) -> Ball:
+        key = symbol, ctx.prec
+        if key not in self._known:
+            meant = self._definitions.get(symbol, symbol)
+            if meant == symbol:
+                raise Undecided(f"the symbol {symbol} has no meaning")
+            self._known[key] = program(meant)(self)
+        return self._known[key]
 
 
 def evaluated(expr: Expr, numbers: Numbers, twice: bool = True) -> Value:
@@ -348,8 +369,7 @@ def _computed(
         sense, (start, end) = (1, (start, end)) if start < end else (-1, (end, start))
         cuts = _cuts(start, end, _zeros(inside, variable, numbers, start, end))
     integrand = program(inside, variable, twice).function(numbers)
-    if is_unbounded(inside, variable):
-        _demand_no_pole(integrand, cuts, variable)
+    _demand_no_pole(integrand, cuts, variable)
     total = (checked if twice else integral)(integrand, list(cuts))
     if not total.is_finite():
         raise Undecided("the numerical integration does not converge")
