@@ -17,7 +17,7 @@ from sympy import Expr, Integral, Symbol
 
 from derive.check.claim import Claim, Meaning, Point
 from derive.proof.balls import Value, digits
-from derive.proof.values import Defined, Undecided, enclosed, evaluated, program
+from derive.proof.values import Defined, Undecided, evaluated, program
 from derive.proof.verdict import DIGITS, shared_digits
 
 _WORKING, _WITH_INTEGRALS = 114, 36
@@ -121,7 +121,7 @@ class Sides:
         with mpmath.workdps(_WITH_INTEGRALS if integrals else _WORKING):
             left, right = (evaluated(side, held) for side in self._at_points)
             for value, side in zip((left, right), self.in_variables, strict=True):
-                if value == 0 and has_extremes(side, point) and not enclosed(side, point).is_zero():
+                if value == 0 and has_extremes(side, point) and not program(side)(point).is_zero():
                     raise Undecided("a part is so large or small that a side may not be zero")
             return Pair(left, right, point, mpmath.mp.dps)
 

@@ -28,22 +28,23 @@ Route = Callable[[Point], tuple[mpf, mpf]]
 def numeric_proof(sheet: FormulaSheet, name: str) -> Proof | None:
     """The proof of one formula by its numerical route."""
     stem = name.removesuffix("_closed")
-    with mpmath.workdps(WORKING):
-        if name in _STICK and sheet.geometry.slope.is_polynomial:
-            return _compared(sheet, _BOUNDED, _stuck_between(sheet, name))
-        if sheet[name].arguments[0] == P and name not in _STICK:
+    if name in _STICK and sheet.geometry.slope.is_polynomial:
+        return compared(sheet, _BOUNDED, _stuck_between(sheet, name))
+    if sheet[name].arguments[0] == P and name not in _STICK:
+        with mpmath.workdps(WORKING):
             return _substituted(sheet, sheet[name])
-        if stem in _OF_G:
-            value = numeric(value_by_quadrature(sheet.geometry.g, stem))
-            return _compared(sheet, _OF_G[stem], lambda p: (_at(sheet, name, p), value(p)))
+    if stem in _OF_G:
+        value = numeric(value_by_quadrature(sheet.geometry.g, stem))
+        return compared(sheet, _OF_G[stem], lambda p: (_at(sheet, name, p), value(p)))
     return None
 
 
-def _compared(sheet: FormulaSheet, words: str, route: Route) -> Proof:
+def compared(sheet: FormulaSheet, words: str, route: Route) -> Proof:
     """The proof by the pairs of numbers of a route at all contacts."""
-    return numerical_proof(
-        words, (Comparison(*route(point), named(point)) for point in contacts(sheet))
-    )
+    with mpmath.workdps(WORKING):
+        return numerical_proof(
+            words, (Comparison(*route(point), named(point)) for point in contacts(sheet))
+        )
 
 
 def _stuck_between(sheet: FormulaSheet, name: str) -> Route:

@@ -2,13 +2,12 @@
 
 from dataclasses import replace
 
-import mpmath
 from mpmath.libmp import NoConvergence
 
-from derive.proof.numerical import numeric_proof
-from derive.proof.points import contacts, named, numeric, numeric_by_steps
+from derive.proof.numerical import compared, numeric_proof
+from derive.proof.points import numeric, numeric_by_steps
 from derive.proof.symbolic import symbolic_proof
-from derive.proof.verdict import WORKING, Comparison, Proof, Verdict, combined, numerical_proof
+from derive.proof.verdict import Proof, Verdict, combined
 from derive.sheet.formulas import FormulaSheet
 from derive.theory.parts import parts_of
 from derive.theory.segments import written_out
@@ -69,9 +68,6 @@ def _also_computed(sheet: FormulaSheet, name: str, proof: Proof) -> Proof:
         return proof
     steps = [(d.symbol, written_out(d.expr)) for d in parts_of(sheet.frame).definitions]
     summed, derived = numeric_by_steps(steps, written_out(computed)), numeric(sheet.flat(name))
-    with mpmath.workdps(WORKING):
-        equal = numerical_proof(
-            "the evaluated form, a sum over the parts of the contact",
-            (Comparison(summed(p), derived(p), named(p)) for p in contacts(sheet)),
-        )
+    words = "the evaluated form, a sum over the parts of the contact"
+    equal = compared(sheet, words, lambda point: (summed(point), derived(point)))
     return proof if equal.holds else equal

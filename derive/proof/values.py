@@ -119,22 +119,16 @@ def evaluated(expr: Expr, numbers: Numbers, twice: bool = True) -> Value:
     working = mpmath.mp.dps
     for times in _ATTEMPTS[:2] if expr.has(Integral) else _ATTEMPTS:
         with mpmath.workdps(times * working + _GUARD), digits(times * working + _GUARD):
-            found = enclosed(expr, numbers, twice)
+            found = program(expr, None, twice)(numbers)
+        if not found.is_finite():
+            raise Undefined("there is no value")
+        if found != 0 and abs(int(abs(found).mid().man_exp()[1])) > _FARTHEST:
+            raise Undecided("a number is too large or too small for the computation")
         if known_digits(found) >= working:
             return +number(found)
     if not found.contains(0) or abs(found).upper() > arb(10) ** -working:
         raise Undecided(f"cancellation leaves fewer than {working} digits")
     return mpf(0)
-
-
-def enclosed(expr: Expr, numbers: Numbers, twice: bool = True) -> Ball:
-    """A ball with the value, by the digits of balls that are set; raises Undecided."""
-    found: Ball = program(expr, None, twice)(numbers)
-    if not found.is_finite():
-        raise Undefined("there is no value")
-    if abs(found).mid() != 0 and abs(int(abs(found).mid().man_exp()[1])) > _FARTHEST:
-        raise Undecided("a number is too large or too small for the computation")
-    return found
 
 
 # ------------------------------------------------------------------ programs
