@@ -26,8 +26,8 @@ from derive.check.claim import SCALE, SIGNED, Claim, Point, Verdict
 from derive.check.draw import in_order, is_allowed, points, zeros
 from derive.check.sides import Sides, has_extremes
 from derive.command.limit import LookAtClock
-from derive.proof.balls import FUNCTIONS, Value
-from derive.proof.values import Undecided, evaluated
+from derive.proof.balls import FUNCTIONS, Value, digits
+from derive.proof.values import Undecided, evaluated, zeros_between
 
 _DECADES, _WITH_INTEGRALS = (64, 128, 256), (4, 8, 16)
 """Decades of the distances from a limit, and the same for sides with integrals or other functions
@@ -190,10 +190,10 @@ class Approach:
         grid = _GRID if variable.is_positive else np.concatenate([-_GRID[::-1], _GRID])
         found = list[mpf]()
         for expr in (self.gap, self.gap.diff(variable)):
-            for zero, _ in zeros(expr, variable, base, grid)[:_MOST_ZEROS]:
-                place = _refined(expr, variable, base, mpf(zero))
-                if place is not None and all(abs(place - each) > _NEAR for each in found):
-                    found.append(place)
+            for _, ends in zeros(expr, variable, base, grid)[:_MOST_ZEROS]:
+                with digits(mpmath.mp.dps):
+                    places = zeros_between(expr, variable, base, *map(mpf, ends))
+                    found += [p for p in places if all(abs(p - each) > _NEAR for each in found)]
         return sorted(found)
 
     def _row(self, variable: Symbol, values: list[mpf], base: Point) -> Row | None:
@@ -258,20 +258,6 @@ def _common(found: list[tuple[Verdict, str]]) -> tuple[Verdict, str]:
     if len({verdict for verdict, _ in found}) == 1:
         return found[0]
     return Verdict.UNCHECKED, "how the two sides approach each other depends on the point"
-
-
-def _refined(expr: Expr, variable: Symbol, base: Point, zero: mpf) -> mpf | None:
-    """Return a zero of an expression to many digits, or None if it has none here."""
-
-    def value(at: Value) -> Value:
-        return evaluated(expr, {**base, variable: at})
-
-    try:
-        starts = zero, zero + max(abs(zero), mpf(1)) * _NEAR
-        place = mpmath.findroot(value, starts, solver="secant", verify=False)
-    except (Undecided, ValueError, ZeroDivisionError):
-        return None
-    return place if isinstance(place, mpf) else None
 
 
 def _by_order(difference: list[Value], gaps: list[Value], wanted: mpf) -> tuple[Verdict, str]:

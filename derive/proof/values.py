@@ -414,11 +414,13 @@ def _zeros(
     return [
         (zero, switch.kind)
         for switch in places(inside, variable)
-        for zero in _zeros_of(switch.of, variable, numbers, start, end)
+        for zero in zeros_between(switch.of, variable, numbers, start, end)
     ]
 
 
-def _zeros_of(of: Expr, variable: Symbol, numbers: Numbers, start: mpf, end: mpf) -> Iterator[mpf]:
+def zeros_between(
+    of: Expr, variable: Symbol, numbers: Numbers, start: mpf, end: mpf
+) -> Iterator[mpf]:
     """Zeros between the ends: intervals without one are dropped, others are made smaller.
 
     Newton's step makes an interval smaller where the rate has one sign in it; else it is halved.
