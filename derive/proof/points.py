@@ -9,7 +9,6 @@ import hashlib
 import random
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, lru_cache
-from typing import TypeVar
 
 import mpmath
 from mpmath import mpf
@@ -24,26 +23,23 @@ from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
 
 Point = dict[Symbol, mpf]
-T = TypeVar("T")
 
 
-def draws(
-    name: str, draw: Callable[[random.Random, int], T | None], count: int = POINTS
-) -> Iterator[T]:
-    """Yield `count` results of `draw`, which returns None for a point outside the assumptions.
+def _draws(name: str, draw: Callable[[random.Random, int], Point | None]) -> Iterator[Point]:
+    """Yield POINTS results of `draw`, which returns None for a point outside the assumptions.
 
-    The drawing stops after a hundred attempts per point.  With fewer points than `count`, the
-    verdict is unknown.
+    The drawing stops after a hundred attempts per point.  With fewer points, the verdict is
+    unknown.
     """
     digest = hashlib.sha256(name.encode()).digest()
     rng = random.Random(int.from_bytes(digest[:8], "big"))
     found = 0
-    for _ in range(100 * count):
+    for _ in range(100 * POINTS):
         point = draw(rng, found)
         if point is not None:
             yield point
             found += 1
-            if found == count:
+            if found == POINTS:
                 return
 
 
@@ -69,7 +65,7 @@ def _contacts(body: Geometry, conditions: tuple[Boolean, ...]) -> list[Point]:
         point[f] = (1 + point[dQ]) / 4
         return point if holds(conditions, point) else None
 
-    return list(draws(body.name, draw))
+    return list(_draws(body.name, draw))
 
 
 def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
@@ -90,7 +86,7 @@ def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
         missed = 0 if holds(formula.conditions, point) else missed + 1
         return None if missed else point
 
-    return draws(f"{sheet.geometry.name} {formula.name}", draw)
+    return _draws(f"{sheet.geometry.name} {formula.name}", draw)
 
 
 def _tilt_between(low: mpf, high: mpf, rng: random.Random) -> mpf:

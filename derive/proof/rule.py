@@ -53,7 +53,7 @@ def integral(integrand: Function, cuts: Sequence[mpf]) -> Ball:
     """int integrand over [cuts[0], cuts[-1]]; NaN if the integrand has no value on a part of it."""
     for times in _INSIDE:
         with digits(times * mpmath.mp.dps + _SPARE):
-            total = _summed_up(integrand, cuts)
+            total = sum((_part(integrand, *ends) for ends in pairwise(cuts)), arb(0))
         if known_digits(total) >= mpmath.mp.dps:
             break
     return total
@@ -67,10 +67,6 @@ def checked(integrand: Function, cuts: Sequence[mpf]) -> Ball:
             finer += [low, low + _NOWHERE * (high - low)]
     first, second = integral(integrand, cuts), integral(integrand, [*finer, cuts[-1]])
     return widened(first, 10 * abs(first - second).upper())
-
-
-def _summed_up(integrand: Function, cuts: Sequence[mpf]) -> Ball:
-    return sum((_part(integrand, *ends) for ends in pairwise(cuts)), arb(0))
 
 
 def _part(integrand: Function, low: mpf, high: mpf, finer: int = _FINER) -> Ball:

@@ -7,7 +7,7 @@ An expression becomes a list of steps on balls.  If rounding or cancellation lea
 of the value, the steps are repeated with more of them.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache, lru_cache, reduce
 from itertools import pairwise
 from operator import add, mul
@@ -361,7 +361,14 @@ def _computed(
         if start == end:
             return arb(0)
         sense, (start, end) = (1, (start, end)) if start < end else (-1, (end, start))
-        cuts = _cuts(start, end, _zeros(inside, variable, numbers, start, end))
+        cuts = _cuts(
+            (start, end),
+            (
+                (zero, switch.kind)
+                for switch in places(inside, variable)
+                for zero in zeros_between(switch.of, variable, numbers, start, end)
+            ),
+        )
     integrand = program(inside, variable, twice).function(numbers)
     _demand_no_pole(integrand, cuts, variable)
     total = (checked if twice else integral)(integrand, list(cuts))
@@ -370,11 +377,12 @@ def _computed(
     return sense * total
 
 
-def _cuts(start: mpf, end: mpf, known: list[tuple[mpf, str]]) -> dict[mpf, set[str]]:
+def _cuts(ends: tuple[mpf, mpf], known: Iterable[tuple[mpf, str]]) -> dict[mpf, set[str]]:
     """Both ends and all points between them, each with the kinds of what happens there.
 
     Points that agree to a third of the working digits are one.
     """
+    start, end = ends
     close = (end - start) * mpf(10) ** (-mpmath.mp.dps // 3)
     cuts: dict[mpf, set[str]] = {start: set(), end: set()}
     for position, kind in known:
@@ -405,17 +413,6 @@ def _demand_no_pole(along: Function, cuts: Mapping[mpf, set[str]], variable: Sym
 
 
 # ------------------------------------------------------------------ points where to cut
-
-
-def _zeros(
-    inside: Expr, variable: Symbol, numbers: Numbers, start: mpf, end: mpf
-) -> list[tuple[mpf, str]]:
-    """Points between the ends where the integrand may not be smooth, each with its kind."""
-    return [
-        (zero, switch.kind)
-        for switch in places(inside, variable)
-        for zero in zeros_between(switch.of, variable, numbers, start, end)
-    ]
 
 
 def zeros_between(
