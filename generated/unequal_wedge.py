@@ -66,7 +66,7 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, phi_1: Values, phi_2:
 
     a and c: proven symbolically and checked numerically to 48 digits at 24 points.  Routes:
     substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked numerically
-    to 47 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).
+    to 49 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).
 
     Parameters
     ----------

@@ -28,7 +28,6 @@ from sympy import (
     expand,
     factor,
     limit,
-    nan,
     oo,
     root,
     simplify,
@@ -106,9 +105,7 @@ def _leading(piece: Piece) -> Iterator[Expr]:
     for power in sorted(curvature.atoms(Pow), key=str):
         if power.exp.free_symbols and power.base.has(x) and not diff(power.base, x).has(x):
             place = x - power.base / diff(power.base, x)
-            before = gently(simplify, curvature.coeff(power) * (x - place) ** 2).subs(x, place)
-            if before.is_finite and not before.has(nan):
-                yield before
+            yield gently(simplify, curvature.coeff(power) * (x - place) ** 2).subs(x, place)
 
 
 def _factored(expr: Expr) -> Expr:
@@ -165,8 +162,18 @@ def _of_polynomial(curvature: Expr, lower: Expr, upper: Expr) -> list[Boolean] |
     rest = Integer(1)
     for part in Mul.make_args(_factored(curvature)):
         base, power = part.as_base_exp() if part.has(x) else (part, Integer(1))
-        rest *= 1 if power.is_even else base
-    return _between(rest, lower, upper) if rest.has(x) else _positive(rest)
+        if not part.has(x):
+            constant *= part
+        elif not power.is_even:
+            rest.append(base)
+    for part in [*rest]:
+        for signed, turned in ((part, 1), (-part, -1)):
+            if part in rest and _between(signed, lower, upper) == []:
+                rest.remove(part)
+                constant *= turned
+    if not rest:
+        return _positive(constant)
+    return _between(Mul(constant, *rest), lower, upper)
 
 
 def _between(expr: Expr, lower: Expr, upper: Expr) -> list[Boolean] | None:

@@ -31,10 +31,9 @@ _SWITCHES = {each.of_sympy: each.switches for each in FUNCTIONS.values()}
 class Switch:
     """An expression at whose zeros another expression may not be smooth.
 
-    kind  root   a half-integer power: smooth in the square root of the distance
-          pole   a negative integer power
-          kink   a modulus, a sign or a condition: smooth on either side
-          log    anything else
+    kind  kink    a modulus, a sign or a condition: smooth on either side
+          branch  a power, a logarithm or an inverse function: may be infinite there
+          peak    a slope, along one variable: smooth, but with rapid changes
     """
 
     of: Expr
@@ -57,10 +56,8 @@ def switches(expr: Expr) -> Iterator[Switch]:
 def _own(expr: Expr) -> Iterator[tuple[str, Expr]]:
     """Yield the switches of the outermost operation only."""
     if isinstance(expr, Pow):
-        if expr.exp.is_Rational and expr.exp.q == 2:
-            yield "root", expr.base
-        elif not expr.exp.is_Integer or expr.exp < 0:
-            yield ("pole" if expr.exp.is_Integer else "log"), expr.base
+        if not expr.exp.is_Integer or expr.exp < 0:
+            yield "branch", expr.base
     elif isinstance(expr, atan2):
         yield "kink", expr.args[0]
     elif isinstance(expr, Relational):

@@ -69,32 +69,25 @@ def _contacts(body: Geometry, conditions: tuple[Boolean, ...]) -> list[Point]:
 
 
 def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
-    """Loads, moments and tilts for which `formula` gives a contact."""
+    """Loads, moments and tilts for which `formula` gives a contact.
+
+    A tilt is drawn between the slopes of straight flanks, which may be as flat as they like.
+    """
 
     low, high = sheet.geometry.slope.limits
-    missed = 0
 
     def draw(rng: random.Random, found: int) -> Point | None:
-        nonlocal missed
         point = _parameters(sheet.geometry, rng)
         sign = 1 if found % 2 == 0 else -1
         point[P] = mpf(2) ** rng.uniform(-6, 6)
         point[M] = sign * point[P] * mpf(2) ** rng.uniform(-6, 3)
         point[alpha] = sign * mpf(2) ** rng.uniform(-6, 1)
-        if missed >= _LEANING:
-            point[alpha] = _tilt_between(numeric(low)(point), numeric(high)(point), rng)
-        missed = 0 if holds(formula.conditions, point) else missed + 1
-        return None if missed else point
+        if (high - low).is_finite:
+            least, most = numeric(low)(point), numeric(high)(point)
+            point[alpha] = -least - (most - least) * mpf(rng.uniform(0.02, 0.98))
+        return point if holds(formula.conditions, point) else None
 
     return _draws(f"{sheet.geometry.name} {formula.name}", draw)
-
-
-def _tilt_between(low: mpf, high: mpf, rng: random.Random) -> mpf:
-    """A tilt at which a contact exists if the body's slope g' ranges from `low` to `high`."""
-    if mpmath.isinf(low) or mpmath.isinf(high):
-        beyond = mpf(2) ** rng.uniform(-6, 1)
-        return -low - beyond if mpmath.isinf(high) else beyond - high
-    return -low - (high - low) * mpf(rng.uniform(0.02, 0.98))
 
 
 def _parameters(body: Geometry, rng: random.Random) -> Point:
@@ -127,10 +120,6 @@ def numeric_by_steps(steps: Iterable[tuple[Symbol, Expr]], expr: Expr) -> Callab
     """`expr` as a function of a point; the symbols it contains are computed by the steps."""
     definitions, last = {e: M / P, **dict(steps)}, numeric(expr)
     return lambda point: last(Defined(point, definitions))
-
-
-_LEANING = 40
-"""Number of failed attempts after which a tilt is drawn between its limits, as some bodies need."""
 
 
 def holds(conditions: Iterable[Boolean], point: Point) -> bool:

@@ -63,7 +63,7 @@ def _kinks_between(*arguments: Expr) -> Switches:
 
 
 def _logarithms_at_one(*arguments: Expr) -> Switches:
-    return [("log", 1 - argument) for argument in arguments]
+    return [("branch", 1 - argument) for argument in arguments]
 
 
 def _inside(argument: Expr) -> Expr:
@@ -71,7 +71,7 @@ def _inside(argument: Expr) -> Expr:
 
 
 _KINK = _zeros("kink", lambda argument, *_: argument)
-_AT_ONE = _zeros("root", lambda argument: argument - 1)
+_AT_ONE = _zeros("branch", lambda argument: argument - 1)
 _AT_BOTH = (lambda argument: 1 + argument, lambda argument: 1 - argument)
 
 
@@ -92,19 +92,19 @@ _OF_PROFILES = {
     "Min": Function(sympy.Min, r"\min", _kinks_between, most=MANY),
     "Piecewise": Function(sympy.Piecewise, most=MANY),
     "exp": Function(sympy.exp, r"\exp"),
-    "log": Function(sympy.log, r"\ln \log", _zeros("log", _inside)),
+    "log": Function(sympy.log, r"\ln \log", _zeros("branch", _inside)),
     "sin": Function(sympy.sin, r"\sin", like="circular"),
     "cos": Function(sympy.cos, r"\cos", like="circular"),
-    "tan": Function(sympy.tan, r"\tan \tg", _zeros("pole", sympy.cos), "circular"),
-    "asin": Function(sympy.asin, r"\arcsin", _zeros("root", *_AT_BOTH), "inverse circular"),
-    "acos": Function(sympy.acos, r"\arccos", _zeros("root", *_AT_BOTH), "inverse circular"),
+    "tan": Function(sympy.tan, r"\tan \tg", _zeros("branch", sympy.cos), "circular"),
+    "asin": Function(sympy.asin, r"\arcsin", _zeros("branch", *_AT_BOTH), "inverse circular"),
+    "acos": Function(sympy.acos, r"\arccos", _zeros("branch", *_AT_BOTH), "inverse circular"),
     "atan": Function(sympy.atan, r"\arctan \arctg", like="inverse circular"),
     "sinh": Function(sympy.sinh, r"\sinh", like="hyperbolic"),
     "cosh": Function(sympy.cosh, r"\cosh", like="hyperbolic"),
     "tanh": Function(sympy.tanh, r"\tanh", like="hyperbolic"),
     "asinh": Function(sympy.asinh, r"\arsinh", like="inverse hyperbolic"),
     "acosh": Function(sympy.acosh, r"\arcosh", _AT_ONE, "inverse hyperbolic"),
-    "atanh": Function(sympy.atanh, r"\artanh", _zeros("log", *_AT_BOTH), "inverse hyperbolic"),
+    "atanh": Function(sympy.atanh, r"\artanh", _zeros("branch", *_AT_BOTH), "inverse hyperbolic"),
 }
 _OF_CLAIMS = {
     "cot": Function(_one_over(sympy.tan), r"\cot \ctg", like="reciprocal circular"),

@@ -262,8 +262,8 @@ given = ["(2)"]
 printed = "P = pi*a*p_0/2"
 [[claims]]
 label = "(4)"
-printed = "G = 2*b"
-symbols = { G = "b" }
+printed = "G = p_0"
+symbols = { G = "2*p_0" }
 [[claims]]
 label = "(5)"
 printed = "t = b"
@@ -318,7 +318,9 @@ def test_every_form_counts_the_same_equations(tmp_path: Path) -> None:
     assert list(told) == ["(1)", "(2)", "(3)", "(4)", "(5)", "(6)", "(7a)", "(7b)", "(8)", "(9)"]
     assert told["(8)"]["coverage"] == "not read"
     assert told["(7a)"]["coverage"] == "to be accepted"
-    assert told["(2)"]["symbols"] == {"P": "load(a, a)", "p_0": "2*P/(pi*a)"}
+    known = {"P": "load(a, a)", "p_0": "2*P/(pi*a)"}
+    assert told["(2)"]["symbols"] == known
+    assert told["(4)"]["symbols"] == {"G": "2*p_0", **known}
 
 
 # P is a load, but k is a length; both sides are the same by definition.

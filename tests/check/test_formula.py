@@ -44,7 +44,7 @@ def test_a_formula_means_what_it_says(text: str) -> None:
 
 
 NOT_SMOOTH = {
-    **dict.fromkeys(("Abs", "abs", "sign", "Heaviside", "log"), (0,)),
+    **dict.fromkeys(("Abs", "abs", "sign", "Heaviside", "log", "sqrt"), (0,)),
     **dict.fromkeys(("asin", "acos", "atanh"), (-1, 1)),
     **dict.fromkeys(("acosh", "elliptic_k", "elliptic_e"), (1,)),
     "tan": (pi / 2, 3 * pi / 2),  # in one turn
@@ -58,9 +58,6 @@ OF_ONE = [name for name, each in FUNCTIONS.items() if each.most == 1]
 @pytest.mark.parametrize("name", [n for n in OF_ONE if "reciprocal" not in FUNCTIONS[n].like])
 def test_it_is_known_where_a_function_is_not_smooth(name: str) -> None:
     read = formula(f"{name}(y)", Names("here", {"y": y}, {}))
-    if name == "sqrt":  # a power
-        assert [(each.kind, each.of) for each in switches(read)] == [("root", y)]
-        return
     zeros = {zero for each in switches(read) for zero in solve(each.of, y)}
     assert zeros == {*NOT_SMOOTH.get(name, ())}
 
@@ -69,4 +66,4 @@ def test_functions_of_several_arguments_are_not_smooth_where_two_agree_or_one_is
     found = switches(formula("max(x, 1, a) + elliptic_pi(a, x)", NAMES))
     distances = {(each.kind, abs(each.of.subs(POINT))) for each in found}
     kinks = {("kink", Rational(tenths, 10)) for tenths in (7, 4, 3)}
-    assert distances == kinks | {("log", Rational(3, 10)), ("log", Rational(7, 10))}
+    assert distances == kinks | {("branch", Rational(3, 10)), ("branch", Rational(7, 10))}

@@ -60,6 +60,14 @@ def demands(g: Expr) -> list[str]:
             Max(0, x) ** 5 / L**4 - Max(0, x) ** 4 / B**3 + x**2 / R,
             ["25*B**9 - 8*L**8*R >= 0"],
         ),
+        # With u = x/L > 0, g'' = (u^3 - 7.5 u^2 + 12 u)/L + 1/R, least at u = 4: -8/L + 1/R
+        (
+            Max(0, x) ** 5 / (20 * L**4)
+            - 5 * Max(0, x) ** 4 / (8 * L**3)
+            + 2 * Max(0, x) ** 3 / L**2
+            + x**2 / (2 * R),
+            ["L >= 8*R"],
+        ),
         # g'' = 2/R - x^2/L^3 within b, least at b; the slope there rises by
         # phi - 2 b/R + b^3/(3 L^3)
         (

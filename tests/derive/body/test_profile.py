@@ -61,6 +61,7 @@ WAYS = [
             *(phi * Abs(x), phi * Max(x, -x), -phi * Min(x, -x), phi * x * sign(x)),
             *(phi * x * (2 * Heaviside(x) - 1), Piecewise((-phi * x, x < 0), (phi * x, True))),
             *(Piecewise((0, Eq(x, 0)), (phi * Abs(x), True)), phi * Abs(Abs(x))),
+            phi * Abs(x - b) / sqrt(1 - 2 * b / x + b**2 / x**2),
         )
     ),
     # g' = 0 within, (x - b)/R to the right, (x + b)/R to the left
@@ -114,6 +115,11 @@ def test_every_way_to_write_a_body_has_one_slope(g: Expr, base: Expr, kinks: lis
         # the root of a square is a modulus
         (sqrt(x**2 - 2 * x * b + b**2) * phi + 4 * x**2 / b, ["b"], [1]),
         (sqrt(x**2 - 2 * sqrt(3) * x * b + 3 * b**2) * phi + 4 * x**2 / b, ["sqrt(3)*b"], [1]),
+        # (b - sqrt(b^2 + b2^2)) (b + sqrt(b^2 + b2^2)) = -b2^2 tells the sign of the first
+        (
+            phi * Abs(x) + Max(0, x**2 - 2 * b * x - b2**2) / R,
+            *(["b - sqrt(b**2 + b2**2)", "0", "b + sqrt(b**2 + b2**2)"], [-1, 1, 1]),
+        ),
         # where the origin lies may be open: b - b2 may be of either sign
         (phi * Max(Abs(x - b) - b2, 0) + x**2 / R, ["b - b2", "b + b2"], [-1, 1]),
         # what the refusal of an open order proposes: b2 = b + gap

@@ -10,7 +10,7 @@ from sympy import Integral, Symbol, symbols
 
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.proof.verdict import POINTS
-from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, x
+from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, f, x
 from tests.derive.bodies import EACH, sheet
 
 
@@ -38,6 +38,7 @@ def test_contacts_meet_every_assumption_and_lie_on_all_sides(name: str) -> None:
         assert -point[a] < point[x] < point[c]
         assert all(point[s] > 0 for s in (E_star, *(q.symbol for q in body.geometry.parameters)))
         assert point[dQ] >= 0
+        assert 0.25 <= point[f] <= 0.75
 
 
 @pytest.mark.parametrize("name", ["hertz", "wedge", "unequal_wedge", "shifted_wedge"])

@@ -1,11 +1,15 @@
-"""What is false is not proven by algebra, whatever the number of kinks."""
+"""What is false is not proven by algebra, whatever the number of kinks, and numbers refute it."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
 from sympy import Expr, Max, Rational
 
+from derive.proof.numerical import numeric_proof
 from derive.proof.symbolic import symbolic_proof
+from derive.proof.verdict import DIGITS, POINTS, Verdict
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import a, c
 from tests.derive.bodies import sheet
 
@@ -16,9 +20,15 @@ FALSE = {
     "nothing for a < c": lambda expr: expr + Max(0, a - c) ** 3 / 10**12,
 }
 FORMULAS = (
-    *("pressure", "K_N_left", "K_N_right", "load_rate", "edge_ratio", "punch"),
+    *("load", "moment", "pressure", "K_N_left", "K_N_right", "load_rate", "edge_ratio", "punch"),
     *("load_by_a", "tilt_by_c", "full_stick_change"),
 )
+
+
+def falsified(true: FormulaSheet, name: str, change: Callable[[Expr], Expr]) -> FormulaSheet:
+    """The sheet with one formula changed."""
+    changed = replace(true[name], expr=change(true[name].expr))
+    return replace(true, formulas={**true.formulas, name: changed})
 
 
 LONG = [pytest.param(body, marks=pytest.mark.slow) for body in ("two_radii", "flat_rounded")]
@@ -27,9 +37,16 @@ LONG = [pytest.param(body, marks=pytest.mark.slow) for body in ("two_radii", "fl
 @pytest.mark.parametrize("body", ["wedge", "flat_cornered", *LONG])
 @pytest.mark.parametrize("name", FORMULAS)
 def test_a_rate_is_proven_and_what_is_not_it_is_not(body: str, name: str) -> None:
-    true = sheet(body)
-    assert symbolic_proof(true, name) is not None
+    assert symbolic_proof(sheet(body), name) is not None
     for change in FALSE.values():
-        expr: Expr = change(true[name].expr)
-        false = replace(true, formulas={**true.formulas, name: replace(true[name], expr=expr)})
-        assert symbolic_proof(false, name) is None
+        assert symbolic_proof(falsified(sheet(body), name, change), name) is None
+
+
+@pytest.mark.parametrize("name", ["tilt", "K_N_left", "stick_m", "contact_a"])
+def test_numbers_agree_with_what_is_true_and_refute_what_is_not(name: str) -> None:
+    """Routes by quadrature of g(x), at the ends of the stick zone, and by substitution."""
+    proof = numeric_proof(sheet("hertz"), name)
+    assert proof is not None and proof.verdict == Verdict.NUMERICAL
+    assert proof.points == POINTS and proof.digits >= DIGITS
+    refuted = numeric_proof(falsified(sheet("hertz"), name, FALSE["factor"]), name)
+    assert refuted is not None and refuted.verdict == Verdict.REFUTED
