@@ -1,6 +1,8 @@
 """What the docstrings of integrated bodies print, computed by mpmath, is what the sheet says by
 closed formulas, which were derived another way."""
 
+from functools import cache
+
 import mpmath
 import pytest
 from mpmath import mpf
@@ -10,6 +12,7 @@ from derive import Geometry, parameter, x
 from derive.codegen.integrals import lines_of
 from derive.proof.points import Point, numeric
 from derive.sheet.derivation import derive_sheet
+from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, a, c
 from derive.theory.superposition import curvature, formulas, slope, xi
 
@@ -25,12 +28,18 @@ PLACES = [mpf(end) for end in ("-2.5", "-0.5", "0.3", "0.5", "1.0", "1.5")]
 """The edges, the kinks and x."""
 
 
+@cache
+def tip_and_corner() -> FormulaSheet:
+    """The sheet of that body, derived once."""
+    return derive_sheet(Geometry("body", g=TIP_AND_CORNER))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["tilt", "load", "moment", "pressure", "K_N_left", "K_N_right", "L_N_left", "L_N_right"]
 )
 def test_the_printed_integrals_are_the_formulas_of_the_sheet(name: str) -> None:
-    sheet = derive_sheet(Geometry("body", g=TIP_AND_CORNER))
+    sheet = tip_and_corner()
     point: Point = {
         **{
             q.symbol: {"b": mpf("0.5"), "phi": mpf("0.125")}[q.name]
@@ -70,6 +79,6 @@ def test_the_lines_define_all_that_they_hold() -> None:
         "P = E_star*Integral(sqrt((a + xi)*(c - xi))*g''(xi), (xi, -a, c))/2",
         "g''(xi) = Piecewise((-6*(b + xi)/R**2, b < -xi), (0, b > xi), (6*(-b + xi)/R**2, True))",
     ]
-    corner = [*lines_of(derive_sheet(Geometry("body", g=TIP_AND_CORNER)), ("load",))]
+    corner = [*lines_of(tip_and_corner(), ("load",))]
     assert corner[0].startswith("P = E_star*(phi*w_3 + Integral(")
     assert corner[-1] == "w_3 = sqrt(Max(0, a + 2*b)*Max(0, -2*b + c))"
