@@ -18,7 +18,7 @@ BLOCKING = f"""
 import sys
 sys.modules.update(dict.fromkeys({OPTIONAL}))  # an import then fails
 import derive.proof.verdict
-derive.proof.verdict.POINTS = 4  # for 24, a third of a minute
+derive.proof.verdict.POINTS = 2  # for 24, a third of a minute
 """
 
 EXAMPLES = r"""

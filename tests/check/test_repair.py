@@ -133,10 +133,6 @@ MISPRINTS = {
     ],
     FLAT: [
         (
-            "2*P*R/(b**2*E_star) = (pi - 2*phi_0)/(2*sin(phi_0)**2) - tan(phi_0)",
-            "2*P*R/(E_star*b**2) = (pi - 2*phi_0)/(2*sin(phi_0)**2) - 1/tan(phi_0)",
-        ),
-        (
             "K_N = E_star*sqrt(2*a)/(pi*R)*phi_0",
             "K_N = E_star*sqrt(2*a)*(-phi_0 + pi/2)/(pi*R)",
         ),
