@@ -12,15 +12,11 @@ from mpmath import mpf
 from sympy import Abs, Expr, Rational, cosh, log, sqrt
 from sympy import exp as sympy_exp
 
-from derive import parameter, x
+from derive import x
 from tests.codegen.made import module_of, text_of_body
+from tests.derive.bodies import L, b, k, phi
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("short_docstrings")]
-
-b = parameter("b", "width", unit="m")
-k = parameter("k", "exponent", unit="-")
-L = parameter("L", "length", unit="m")
-phi = parameter("phi", "slope", unit="rad")
 
 OWN = {"b": 0.5, "L": 1.5, "phi": 0.125}
 DISTANCES = np.concatenate([np.geomspace(1e-75, 1e-3, 6), np.linspace(0.01, 3, 3)])

@@ -6,13 +6,11 @@ from sympy import Abs, Expr, Max
 from derive import Geometry, parameter, x
 from derive.body.profile import Slope
 from derive.codegen.cuts import cancels, cuts_of
+from tests.derive.bodies import L, R, b
 
 pytestmark = pytest.mark.slow
 
-b = parameter("b", "place", unit="m")
 h_0 = parameter("h_0", "distance", unit="m")
-L = parameter("L", "length", unit="m")
-R = parameter("R", "radius", unit="m")
 
 
 def slope(g: Expr) -> Slope:

@@ -23,6 +23,8 @@ phi = parameter("phi", "slope of the left flank", unit="rad")
 psi = parameter("psi", "slope of the right flank", unit="rad")
 b = parameter("b", "half-width of the middle", unit="m")
 C = parameter("C", "constant of the quartic", unit="m**3")
+L = parameter("L", "length", unit="m")
+k = parameter("k", "exponent", unit="-")
 
 # All exact in binary: a number means the same to Python, mpmath and SymPy.
 VALUES = {"E_star": 1.25, "R": 1.5, "R1": 0.75, "phi": 0.25, "psi": 0.375, "b": 0.5, "C": 2.0}

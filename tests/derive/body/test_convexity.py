@@ -31,16 +31,11 @@ from derive.proof.points import contacts, holds
 from derive.proof.verdict import POINTS
 from derive.sheet.derivation import derive_sheet
 from derive.sheet.formulas import load_conditions, tilt_conditions
+from tests.derive.bodies import R1, L, R, b, phi, psi
 
 pytestmark = pytest.mark.slow
 
-R = parameter("R", "radius", unit="m")
-R1 = parameter("R1", "another radius", unit="m")
-L = parameter("L", "length", unit="m")
 B = parameter("B", "another length", unit="m")
-b = parameter("b", "half-width", unit="m")
-phi = parameter("phi", "slope", unit="rad")
-psi = parameter("psi", "another slope", unit="rad")
 
 
 def demands(g: Expr) -> list[str]:

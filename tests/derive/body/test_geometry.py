@@ -6,9 +6,7 @@ from sympy import Expr, GoldenRatio, Max, Symbol, cosh, sqrt
 from derive import Geometry, parameter, x
 from derive.command.errors import BadName, DimensionMismatch, UnknownSymbol
 from derive.symbols import QUANTITIES, RESERVED
-
-R = parameter("R", "radius", unit="m")
-phi = parameter("phi", "slope", unit="rad")
+from tests.derive.bodies import R, phi
 
 
 @pytest.mark.parametrize(

@@ -34,15 +34,10 @@ from derive import Geometry, parameter, x
 from derive.body.profile import Slope, read_slope
 from derive.codegen.cuts import cuts_of
 from derive.command.errors import BadProfile
+from tests.derive.bodies import R1, R, b, k, phi, psi
 
-R = parameter("R", "radius", unit="m")
-R1 = parameter("R1", "radius on the left", unit="m")
-phi = parameter("phi", "slope of the left flank", unit="rad")
-psi = parameter("psi", "slope of the right flank", unit="rad")
-b = parameter("b", "half-width", unit="m")
 b2 = parameter("b2", "another width", unit="m")
 gap = parameter("gap", "by how much further", unit="m")
-k = parameter("k", "exponent", unit="-")
 
 beyond = Abs(x) - b
 
