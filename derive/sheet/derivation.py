@@ -60,8 +60,9 @@ def derive_sheet(geometry: Geometry) -> FormulaSheet:
 
 
 def derive_law(geometry: Geometry) -> FormulaSheet:
-    """Derive load, moment and tilt, and the contact from the loads where a formula exists."""
-    return _derived(geometry, _LAW if geometry.slope.is_polynomial else (_loads,))
+    """Derive load, moment and tilt, and the contact from the loads where a formula exists; of a
+    body whose formulas are integrals, all that may have a closed form."""
+    return _derived(geometry, _LAW if geometry.slope.is_polynomial else _INTEGRALS)
 
 
 def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaSheet:
@@ -345,5 +346,6 @@ _CLOSED = (
 _LAW = (_loads, _inverses)
 """Stages of the contact law alone."""
 
-_SUPERPOSED = (_loads, _pressure, _edges, _stick, _slip)
+_INTEGRALS = (_loads, _pressure, _edges)
+_SUPERPOSED = (*_INTEGRALS, _stick, _slip)
 """Stages for any other body."""
