@@ -5,10 +5,12 @@ import math
 from types import ModuleType
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from mpmath import mpf
 from numpy.testing import assert_allclose, assert_array_equal
 
 from generated import hertz, unequal_wedge, wedge
@@ -98,6 +100,64 @@ def test_a_zone_of_large_tension_meets_both_conditions(
 def steady(body: ModuleType, a: Any, c: Any, shear: Any, tension: Any, **own: float) -> StickZone:
     here = Contact(a, c, 0.0)
     return body.stick_zone(here, here, shear, tension, f=F, E_star=E_STAR, **own)  # type: ignore[no-any-return]
+
+
+def elliptic(a: mpf, c: mpf, m: mpf, n: mpf) -> tuple[mpf, mpf]:
+    """Integrals of sqrt((a + x)(c - x)) r and sqrt((a + x)(c - x))/r, r = sqrt((x + m)/(x - n)).
+
+    Both extend from n to c.  With u = c - x they are sums of U_k = int u**k/sqrt(Q) du, where
+    Q = u (u1 - u)(u2 - u)(u3 - u), u1 = c - n, u2 = c + m and u3 = c + a.  The substitution
+    tau = (x - n)/u gives
+
+        U_k = u1**k/sqrt(u2 u3) int (1 + tau)**-k dtau/sqrt(tau (tau + alpha)(tau + beta))
+
+    with alpha = (a + n)/u3 and beta = (m + n)/u2.  For k = 0 and 1 these are Carlson's R_F and
+    R_J.  For k = 2 the derivative of sqrt(tau (tau + alpha)/(tau + beta))/(1 + tau) reduces the
+    integral to these and R_D; for k = 3 the derivative of sqrt(Q) reduces it to the other U_k.
+    If u1 is small, the terms nearly cancel, and float64 would lose a factor of about (h/u1)**2
+    in precision.  The program therefore uses quadrature.
+    """
+    u1, u2, u3 = c - n, c + m, c + a
+    alpha, beta = (a + n) / u3, (m + n) / u2
+    first = 2 * mpmath.elliprf(0, alpha, beta)
+    third = mpf(2) / 3 * mpmath.elliprj(0, alpha, beta, 1)
+    second = mpf(2) / 3 * mpmath.elliprd(0, alpha, beta)
+    mixed = (alpha * beta - 2 * alpha - 2 * beta + 3) * third + beta * (alpha - beta) * second
+    squared = (first / 2 + mixed / (2 * (beta - 1))) / (alpha - 1)
+    U = [u1**k / mpmath.sqrt(u2 * u3) * v for k, v in enumerate((first, third, squared))]
+    e1, e2, e3 = u1 + u2 + u3, u1 * u2 + u1 * u3 + u2 * u3, u1 * u2 * u3
+    U.append((e3 * U[0] - 2 * e2 * U[1] + 3 * e1 * U[2]) / 4)
+    return u2 * u3 * U[1] - (u2 + u3) * U[2] + U[3], u1 * u3 * U[1] - (u1 + u3) * U[2] + U[3]
+
+
+@pytest.mark.parametrize(("a", "c", "pull"), [(1.5, 1.25, 2.0), (0.5, 2.0, -3.0)])
+def test_hertz_in_complete_elliptic_integrals(a: float, c: float, pull: float) -> None:
+    """Large tension: both conditions by Carlson's forms; the forms against their integrals."""
+    radius = 2.0
+    shear = 0.5 * F * float(hertz.load(a, c, E_star=E_STAR, R=radius))
+    dsigma = pull * 8 * shear / (np.pi * (a + c))
+    m, n, regime = steady(hertz, a, c, shear, dsigma, R=radius)
+    assert regime == Regime.LARGE
+    with mpmath.workdps(40):
+        given_edges = [mpf(float(v)) for v in (a, c, m, n)]
+        left, right, left_end, right_end = given_edges
+        near, far = elliptic(*given_edges)
+        for power, found in ((1, near), (-1, far)):
+
+            def integrand(t: mpf, power: int = power) -> mpf:
+                """At x = n + (c - n) sin(t)**2."""
+                y, rest = ((right - right_end) * of(t) ** 2 for of in (mpmath.sin, mpmath.cos))
+                root = mpmath.sqrt((left_end + right_end + y) / y) ** power
+                return 2 * mpmath.sqrt(y * rest * (left + right_end + y) * rest) * root
+
+            direct = mpmath.quad(integrand, [0, mpmath.pi / 2])
+            assert abs(found / direct - 1) < mpf(10) ** -30
+        near_left, far_left = elliptic(right, left, right_end, left_end)
+        scale = np.sign(pull) * F * E_STAR / radius  # f 2 p = f (E*/R) sqrt(..)
+        by_tension = mpmath.pi * dsigma * (left_end + right_end) / 8
+        off_right = scale * (far_left - near) - shear + by_tension
+        off_left = scale * (near_left - far) - shear - by_tension
+        assert max(abs(off_right), abs(off_left)) < 1e-14 * shear
 
 
 def test_regimes_of_constant_loads_follow_the_signs_of_K_T() -> None:
