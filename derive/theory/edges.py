@@ -10,7 +10,7 @@ each logarithm is the integral of a binomial series, and no limit is needed.
 from enum import Enum
 from functools import lru_cache
 
-from sympy import Add, Expr, Rational, binomial, cancel, expand, pi, sqrt
+from sympy import Expr, Integer, Poly, Rational, S, binomial, cancel, pi, sqrt
 
 from derive.symbols import E_star, a, c, h, s, x
 from derive.theory.algebra import tidy
@@ -50,28 +50,41 @@ def contact_formula(frame: Frame, name: str) -> Expr:
 def pressure_series(frame: Frame, edge: Edge, terms: int) -> list[Expr]:
     """[K_N, L_N, ...], where p = sqrt(s) (K_N + L_N s + ...) at a distance s from `edge`."""
     at = edge.position + edge.inward * s
-    total = smooth_part(frame).subs(x, at) * _root_series(Rational(1, 2), terms)
+    smooth = _taylor(smooth_part(frame).subs(x, at), terms)
+    total = _product(smooth, _root_series(Rational(1, 2), terms), terms)
     for kink in frame.kinks:
+        jump = _taylor(kink.kink.jump.subs(x, at), terms)
+        logarithm = _logarithm_series(kink, edge, terms)
         sense = kink.kink.side * 2 / pi
-        total += sense * kink.kink.jump.subs(x, at) * _logarithm_series(kink, edge, terms)
-    found = [expand(total).coeff(s, n) for n in range(terms)]
+        for i, term in enumerate(_product(jump, logarithm, terms)):
+            total[i] += sense * term
     if not frame.is_long:
-        found = [cancel(term) for term in found]
-    return [tidy(E_star / 2 * sqrt(h) * term, frame) for term in found]
+        total = [cancel(term) for term in total]
+    return [tidy(E_star / 2 * sqrt(h) * term, frame) for term in total]
 
 
-def _root_series(power: Expr, terms: int) -> Expr:
+def _taylor(polynomial: Expr, terms: int) -> list[Expr]:
+    powers = Poly(polynomial, s)
+    return [powers.nth(n) for n in range(terms)]
+
+
+def _product(first: list[Expr], second: list[Expr], terms: int) -> list[Expr]:
+    return [sum((first[i] * second[n - i] for i in range(n + 1)), S.Zero) for n in range(terms)]
+
+
+def _root_series(power: Expr, terms: int) -> list[Expr]:
     """(1 - s/h)**power."""
-    return Add(*(binomial(power, n) * (-s / h) ** n for n in range(terms)))
+    return [binomial(power, n) * (-1 / h) ** n for n in range(terms)]
 
 
-def _logarithm_series(kink: KinkFrame, edge: Edge, terms: int) -> Expr:
+def _logarithm_series(kink: KinkFrame, edge: Edge, terms: int) -> list[Expr]:
     """L_j / (sqrt(h) sqrt(s)): int_0^s w_j / (2 (d - t) sqrt(t) sqrt(h - t)) dt.
 
     d is the distance from the edge to the kink.
     """
     distance = kink.right if edge is Edge.RIGHT else kink.left
-    geometric = Add(*(s**n / distance ** (n + 1) for n in range(terms)))
-    integrand = expand(geometric * _root_series(Rational(-1, 2), terms))
-    powers = (integrand.coeff(s, n) * s**n / (n + Rational(1, 2)) for n in range(terms))
-    return kink.w / (2 * h) * Add(*powers)
+    geometric = [distance ** -(n + 1) for n in range(terms)]
+    integrand = _product(geometric, _root_series(Rational(-1, 2), terms), terms)
+    return [
+        kink.w / (2 * h) * term / (Integer(n) + Rational(1, 2)) for n, term in enumerate(integrand)
+    ]
