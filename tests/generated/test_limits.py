@@ -180,7 +180,7 @@ def test_a_slip_zone_opposite_a_corner_at_the_edge_is_right_or_unsolved() -> Non
     a = b + h * 10 ** rng.uniform(-17, -4, 150)
     c = h - a
     dQ = 10 ** rng.uniform(-6, -3, 150) * flat_sloped.load(a, c, E_star=E, **own)
-    dsigma = rng.choice([-1, 1], 150) * 10 ** rng.uniform(0.2, 2, 400) * 8 * dQ / (np.pi * h)
+    dsigma = rng.choice([-1, 1], 150) * 10 ** rng.uniform(0.2, 2, 150) * 8 * dQ / (np.pi * h)
     here = Contact(a, c, np.zeros(150))
     found = flat_sloped.stick_zone(here, here, dQ, dsigma, f=0.5, E_star=E, **own)
     first = flat_sloped.slip_zones(a, c, dQ, dsigma, f=0.5, E_star=E, **own).right

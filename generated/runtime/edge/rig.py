@@ -168,7 +168,7 @@ def match(
     return Rig(
         *(P, M, dQ, dsigma, P - P_1, M - M_1, law, first, second, Edges(*map(Edge._make, rows))),
         *(d, regime, *_compared(wished, actual, a + c)),
-        Edges(*(zones[0] / zones[1] - 1).tolist()),
+        Edges(*(np.round(zones[0] / zones[1] - 1, 9) + 0.0).tolist()),  # as requests are met
         warning,
     )
 
