@@ -289,6 +289,27 @@ def slip_on_the_way_is_seen() -> bool:
     return bool(found.regime == Regime.MIXED)
 
 
+def shear_below_the_falling_friction_limit_is_refused() -> bool:
+    """The load of a cylinder falls, and a stick zone [-m, m] is to narrow to [-0.2, 0.2].  From one
+    m on the shear is below friction at an eighth of the way, to 3e-6 of it."""
+    growth, bounded, cycles, quadrature = (
+        import_module(f"generated.runtime.slip.{name}")
+        for name in ("growth", "bounded", "cycles", "quadrature")
+    )
+    law, own, cycle = hertz._BODY.functions, np.ones(1), cycles.Cycle(1.2, 1.2, 1, 1, 0.1, 0, F)
+    of, (low, high) = bounded.slipping(cycle, 1.0, -1.0), (0.7, 0.9)
+    for _ in range(40):
+        m = (low + high) / 2
+        is_carried = growth._within_friction(law, own, of, m, m, (0.2, 0.2))
+        low, high = (m, high) if is_carried else (low, m)
+    x, zones = (
+        -0.2 - (low - 0.2) / 8,
+        bounded.both_zones((law, own, quadrature.ROUGH), of, 1 - low, 1 - low),
+    )
+    drop = F * (law.pressure(x, 1.2, 1.2, own) - law.pressure(x, 1.0, 1.0, own))
+    return bool(abs(bounded.change_between(of, zones, low, low, x) / drop - 1) < 3e-6)
+
+
 def edges_that_hang_on_rounding_of_the_tilt_are_refused() -> bool:
     """A wedge on one flank: P = E* phi sqrt(a c), and rounding of the tilt moves an edge by 7e-6 of
     the width, EPS phi h/P."""
@@ -439,6 +460,8 @@ TABLE: dict[str, tuple[Any, Callable[[], bool]]] = {
     "slip.zone.RULE_RTOL": (2e-9, zones_with_a_kink_near_the_edge_meet_their_conditions),
     "slip.bounded.MIN_GAP": (0.005, zones_of_a_short_fillet_meet_their_conditions),
     "slip.growth.PARTS": (1, slip_on_the_way_is_seen),
+    "slip.growth.PLACES": (1, shear_below_the_falling_friction_limit_is_refused),
+    "slip.growth.FRICTION_RTOL": (1e-5, shear_below_the_falling_friction_limit_is_refused),
     "slip.series.MAX_STEPS": (4, series_are_solved),
     "pieces.MAX_LEVEL": (0, integrals_agree_with_the_closed_form),
     "pieces.FARTHEST": (0, integrals_agree_with_the_closed_form),

@@ -56,16 +56,11 @@ rule, which takes one step of about this length.  The first number serves where 
 close to each other, because the error of a rule is then the square of that of the rule before."""
 
 ZONE_RTOL = 1e-9
-"""Ends of two stick zones that differ by less than this part of the contact width may be equal."""
+"""Ends of stick zones that differ by less than this part of the contact width may be equal; no
+narrower stick zone is sought."""
 
 MIN_GAP = 0.05
 """Singularities of r that are closer to each other than this part of a slip zone are close."""
-
-LONGEST_STEP = 2.0
-"""Longest step of Newton's method in the logarithm of a slip zone over the stick zone."""
-
-NARROWEST = 1e-6
-"""The narrowest stick zone that is sought in a bracket, relative to the width."""
 
 NEAREST = 1e-9
 """Finite parts omit nodes that are closer to the stick zone than this part of a slip zone."""
@@ -189,7 +184,7 @@ def newton(zones: Any, body: Any, of: Any, left: float, right: float) -> Any:
             by_right
         ) < NEWTON_RTOL + rounding / min(right, stuck):
             return moved(width, left, right, by_left, by_right)
-        part = min(1.0, LONGEST_STEP / max(abs(by_left), abs(by_right)))
+        part = 1 / max(1.0, abs(by_left), abs(by_right))  # a ratio changes by a factor of e at most
     return math.nan, math.nan
 
 
@@ -218,7 +213,7 @@ def placed(zones: Any, body: Any, of: Any, stuck: float, n: float) -> Any:
 def _bracketed(body: Any, of: Any) -> Any:
     """Slip zones by the width of the stick zone, and whether slip reverses on one side."""
     width = of.a + of.c
-    stuck = max(turning_width(of.cycle.dQ, of.cycle.dsigma), NARROWEST * width)
+    stuck = max(turning_width(of.cycle.dQ, of.cycle.dsigma), ZONE_RTOL * width)
     if not stuck < width:
         return math.nan, math.nan, True
     n, part = placed(both_zones, body, of, stuck, math.nan)
