@@ -157,9 +157,10 @@ def _above(expr: Expr, relation: type[Relational] = Gt) -> Boolean:
 def _of_polynomial(curvature: Expr, lower: Expr, upper: Expr) -> list[Boolean] | None:
     """Conditions that make a polynomial nonnegative between two points; None if none are found.
 
-    Even powers never change sign, and of odd ones the base decides.
+    Even powers never change sign, and of odd ones the base decides.  Factors that do not change
+    sign between the points are removed first.
     """
-    rest = Integer(1)
+    rest, constant = list[Expr](), Integer(1)
     for part in Mul.make_args(_factored(curvature)):
         base, power = part.as_base_exp() if part.has(x) else (part, Integer(1))
         if not part.has(x):
@@ -171,9 +172,7 @@ def _of_polynomial(curvature: Expr, lower: Expr, upper: Expr) -> list[Boolean] |
             if part in rest and _between(signed, lower, upper) == []:
                 rest.remove(part)
                 constant *= turned
-    if not rest:
-        return _positive(constant)
-    return _between(Mul(constant, *rest), lower, upper)
+    return _between(Mul(constant, *rest), lower, upper) if rest else _positive(constant)
 
 
 def _between(expr: Expr, lower: Expr, upper: Expr) -> list[Boolean] | None:

@@ -371,6 +371,8 @@ def edge(
         raise click.BadParameter(
             f"{wrong.pop()!r} is neither x nor p: write x=UNIT or p=UNIT", param_hint="--unit"
         )
+    if html:
+        import derive.sheet.picture  # noqa: F401 - refuses if a library is missing
     targets = ((html, "--html", MARK), (table, "--csv", report.CSV_HEAD))
     for path, option, mark in targets:
         if path is not None:

@@ -6,8 +6,8 @@
     page      a sheet, its BuiltBody                  one page; the index of several pages
 
 Only the commands import this package, and docs/site, whose pages show the same figures in the same
-style, templates/figures.css.  A page contains its own style,
-pictures and formulas, so that nothing is downloaded when it is viewed.
+style, templates/figures.css.  A page contains its own style, pictures and formulas, so that nothing
+is downloaded when it is viewed.
 """
 
 from importlib.util import find_spec

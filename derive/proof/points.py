@@ -17,7 +17,7 @@ from sympy.logic.boolalg import Boolean
 
 from derive.body.geometry import Geometry
 from derive.proof.balls import digits
-from derive.proof.values import Defined, Undecided, evaluated, program
+from derive.proof.values import Defined, Undefined, evaluated, program
 from derive.proof.verdict import POINTS
 from derive.sheet.formulas import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
@@ -102,16 +102,17 @@ def _parameters(body: Geometry, rng: random.Random) -> Point:
 
 @cache
 def numeric(expr: Expr) -> Callable[[Point], mpf]:
-    """`expr` as a function of a point, to the working digits of mpmath; NaN if some are lost."""
+    """`expr` as a function of a point, to the working digits of mpmath; NaN if it is not real."""
     expr = expr.subs(e, M / P)
     if expr.is_infinite:
         return lambda point: mpmath.inf * (1 if expr.is_extended_positive else -1)
 
     def at(point: Point) -> mpf:
         try:
-            return mpf(evaluated(expr, point, twice=False))
-        except Undecided:
+            found = evaluated(expr, point, twice=False)
+        except Undefined:
             return mpf("nan")
+        return found if isinstance(found, mpf) else mpf("nan")
 
     return at
 

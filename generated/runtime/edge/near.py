@@ -42,11 +42,11 @@ class Edge(NamedTuple):
         "left" or "right", for `match`.
     """
 
-    K_N: Array
-    K_T: Array
-    da: Array = 0.0
-    L_N: Array | None = None
-    L_T: Array | None = None
+    K_N: Values
+    K_T: Values
+    da: Values = 0.0
+    L_N: Values | None = None
+    L_T: Values | None = None
     side: str = "left"
 
 
@@ -308,7 +308,7 @@ def _numbers(edge: Any, unknown: float = 0.0) -> dict[str, Any]:
     if not isinstance(edge, Edge):
         raise TypeError(f"edge must be an Edge; got {edge!r:.60}")
     if (edge.L_N is None) != (edge.L_T is None):
-        raise ValueError("L_N and L_T have the same order: give both, or neither for order 1")
+        raise ValueError("L_N and L_T have the same order: give both, or neither")
     if edge.L_N is None:
         edge = edge._replace(L_N=unknown, L_T=unknown)
     return dict(zip(HalfCycle._fields, edge[:5], strict=False))

@@ -55,6 +55,19 @@ def demands(g: Expr) -> list[str]:
             Max(0, x) ** 5 / L**4 - Max(0, x) ** 4 / B**3 + x**2 / R,
             ["25*B**9 - 8*L**8*R >= 0"],
         ),
+        # g'' = (x + L)(x^2 - phi b x + b^2)/(b^2 L R) on the right, where x + L > 0
+        (
+            Piecewise(
+                (x**2 / (2 * R), x < 0),
+                (
+                    ((x + L) * (x**2 - phi * b * x + b**2) / (b**2 * L * R))
+                    .integrate(x)
+                    .integrate(x),
+                    True,
+                ),
+            ),
+            ["2 - phi >= 0"],
+        ),
         # With u = x/L > 0, g'' = (u^3 - 7.5 u^2 + 12 u)/L + 1/R, least at u = 4: -8/L + 1/R
         (
             Max(0, x) ** 5 / (20 * L**4)
