@@ -70,8 +70,8 @@ def test_where_there_is_none() -> None:
     ("K_N", "given", "words"),
     [
         (1.0, {"order": 2}, "order 2 needs L_N and L_T"),
-        (1.0, {"L_N": 4.0}, "give both, or neither for order 1"),
-        (1.0, {"L_T": 1.0, "order": 1}, "give both, or neither for order 1"),
+        (1.0, {"L_N": 4.0}, "give both, or neither"),
+        (1.0, {"L_T": 1.0, "order": 1}, "give both, or neither"),
         (1.0, {"order": 9}, "order must be 1 or 2; got 9"),
         (1.0, SECOND | {"order": 3}, "order must be 1 or 2"),
         (1.0, {"order": 1.5}, "whole number"),
