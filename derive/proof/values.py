@@ -260,14 +260,13 @@ class Program:
         known: dict[int, list[Any]] = {}
         at = self._number.get(self._along)
 
-        def value(place: Ball) -> Ball:
+        def value(place: Ball) -> Any:
             if ctx.prec not in known:
                 known[ctx.prec] = self.parts(numbers)
             values = known[ctx.prec].copy()
             if at is not None:
                 values[at] = place
-            found: Ball = _filled(values, self._steps[True])[self._last]
-            return found
+            return _filled(values, self._steps[True])[self._last]
 
         return value
 
@@ -279,15 +278,13 @@ def _filled(values: list[Any], steps: list[Step]) -> list[Any]:
 
 
 _OF_TWO: dict[type, Operation] = {Add: add, Mul: mul}
-
 _CONSTANTS: dict[Basic, Operation] = {
     pi: arb.pi,
     Exp1(): arb.const_e,
     I: lambda: acb(0, 1),
     oo: lambda: arb("inf"),
     -oo: lambda: arb("-inf"),
-    nan: lambda: arb("nan"),
-    zoo: lambda: arb("nan"),
+    **dict.fromkeys((nan, zoo), lambda: arb("nan")),
 }
 
 
@@ -303,8 +300,8 @@ def _by_mpmath(node: Basic) -> Operation:
     """A function that python-flint does not have, by mpmath; its last digits are not trusted."""
     if isinstance(node, AppliedUndef | Boolean):
         raise Undecided(f"{node} cannot be computed numerically")
-    symbols = sorted(node.free_symbols, key=str)
-    function = lambdify(symbols, node, modules="mpmath", dummify=True)
+    held = sorted(node.free_symbols, key=str)
+    function = lambdify(held, node, modules="mpmath", dummify=True)
 
     def operation(*values: Ball) -> Ball:
         with mpmath.workprec(ctx.prec + 20):
@@ -440,16 +437,14 @@ def zeros_between(
             continue
         middle, radius = within.mid(), within.rad()
         stepped = middle - value(middle) / rate(within)
-        if isinstance(stepped, arb) and stepped.is_finite():
-            if not within.overlaps(stepped):
-                continue
-            if stepped.rad() <= enough:
-                yield number(stepped)
-                continue
-            if stepped.rad() < radius / 4:
-                held.append(stepped)
-                continue
-        if radius <= enough:
+        closer = stepped if isinstance(stepped, arb) and stepped.is_finite() else within
+        if not within.overlaps(closer):
+            continue
+        if closer.rad() <= enough:
+            yield number(closer)
+        elif closer.rad() < radius / 4:
+            held.append(closer)
+        elif radius <= enough:
             yield number(middle)
         else:
             held += [arb(middle + side * radius / 2, radius / 2) for side in (-1, 1)]

@@ -19,6 +19,13 @@ MOVING = Edge(K_N=2.0, K_T=0.2, L_N=0.7, L_T=0.3, da=0.05)
 ZONE = slip_zone(2.0, 0.2, f=F, L_N=0.7, L_T=0.3, da=0.05).d
 
 
+def test_far_from_an_edge_on_its_way_the_change_is_that_of_full_stick() -> None:
+    """Half of the change at half of the way, when the edge is da/2 further in."""
+    s = np.array([1e3, 4e3])
+    off = tractions(s, MOVING, f=F, share=0.5).dq - (0.2 / np.sqrt(s) + 0.3 * np.sqrt(s)) / 2
+    assert np.all(np.abs(off) < 1 / s**1.5)  # the next term of the series
+
+
 def of_tractions(here: Any, dQ: float, s: Any, edge: Edge) -> Any:
     x = s - here.a
     found = tractions(s, edge, f=F)

@@ -176,14 +176,14 @@ def test_a_slip_zone_opposite_a_corner_at_the_edge_is_right_or_unsolved() -> Non
     large that it hardly slips; the right slip zone is d = K_T/(f K_N), and short."""
     rng, b = np.random.default_rng(5), 0.02
     own = {"phi": 0.1, "b": b}
-    h = b * 10 ** rng.uniform(-1, 1, 150)
-    a = b + h * 10 ** rng.uniform(-17, -4, 150)
+    h = b * 10 ** rng.uniform(-1, 1, 80)
+    a = b + h * 10 ** rng.uniform(-17, -4, 80)
     c = h - a
-    dQ = 10 ** rng.uniform(-6, -3, 150) * flat_sloped.load(a, c, E_star=E, **own)
-    dsigma = rng.choice([-1, 1], 150) * 10 ** rng.uniform(0.2, 2, 150) * 8 * dQ / (np.pi * h)
-    here = Contact(a, c, np.zeros(150))
+    dQ = 10 ** rng.uniform(-6, -3, 80) * flat_sloped.load(a, c, E_star=E, **own)
+    dsigma = rng.choice([-1, 1], 80) * 10 ** rng.uniform(0.2, 2, 80) * 8 * dQ / (np.pi * h)
+    here = Contact(a, c, np.zeros(80))
     found = flat_sloped.stick_zone(here, here, dQ, dsigma, f=0.5, E_star=E, **own)
     first = flat_sloped.slip_zones(a, c, dQ, dsigma, f=0.5, E_star=E, **own).right
     known = (found.regime == Regime.LARGE) & (first < 3e-3 * h)
-    assert np.count_nonzero(known) > 20
+    assert np.count_nonzero(known) > 12
     assert_allclose((c - found.n)[known], first[known], rtol=0.2, atol=1e-14 * np.max(h))

@@ -150,6 +150,7 @@ def test_bodies_add_up_at_one_contact(
         assert close(first, total, digits=18, scale=1e-3), formula
 
 
+@pytest.mark.enough("rounded_wedge*")
 @pytest.mark.parametrize(
     ("name", "own", "dsigma", "senses"),
     [

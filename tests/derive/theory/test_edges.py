@@ -34,7 +34,7 @@ def test_K_N_and_L_N_are_what_the_pressure_tends_to(
 
 
 @pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
-@pytest.mark.parametrize("name", ["hertz", "shifted_wedge", "two_radii", "skew"])
+@pytest.mark.parametrize("name", ["shifted_wedge", "two_radii"])
 def test_four_terms_leave_an_error_of_the_fifth(name: str, edge: Edge) -> None:
     """p - (four terms) ~ s^(9/2): a tenth of s leaves 10^-4.5 of it."""
     frame, at = sheet(name).frame, {"a": mpf(2), "c": mpf("1.5")}
