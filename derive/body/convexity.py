@@ -28,6 +28,7 @@ from sympy import (
     expand,
     factor,
     limit,
+    nan,
     oo,
     root,
     simplify,
@@ -105,7 +106,9 @@ def _leading(piece: Piece) -> Iterator[Expr]:
     for power in sorted(curvature.atoms(Pow), key=str):
         if power.exp.free_symbols and power.base.has(x) and not diff(power.base, x).has(x):
             place = x - power.base / diff(power.base, x)
-            yield gently(simplify, curvature.coeff(power) * (x - place) ** 2).subs(x, place)
+            before = gently(simplify, curvature.coeff(power) * (x - place) ** 2).subs(x, place)
+            if before.is_finite and not before.has(nan):
+                yield before
 
 
 def _factored(expr: Expr) -> Expr:

@@ -8,15 +8,17 @@ import pytest
 from mpmath import mpf
 from sympy import Abs, Expr, Integral, Max, Piecewise, S, lambdify
 
-from derive import Geometry, x
-from derive.codegen.integrals import curvature, integral_of, kernel, lines_of, slope
+from derive import Geometry, parameter, x
+from derive.codegen.integrals import lines_of
 from derive.proof.points import Point, numeric
 from derive.sheet.derivation import derive_sheet
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, a, c
-from derive.theory.superposition import kernel as doubled
-from derive.theory.superposition import xi
-from tests.derive.bodies import R, b, phi
+from derive.theory.superposition import curvature, formulas, slope, xi
+
+R = parameter("R", "radius", unit="m")
+b = parameter("b", "half-width", unit="m")
+phi = parameter("phi", "slope", unit="rad")
 
 TIP_AND_CORNER = phi * Max(0, x - 2 * b) + Piecewise(
     (phi * (3 * x**2 / (4 * b) - x**4 / (8 * b**3)), Abs(x) < b),

@@ -4,19 +4,9 @@ At a distance s from the edge
 
     p = K_N s**(1/2) + L_N s**(3/2),   full-stick dq = K_T s**(-1/2) + L_T s**(1/2).
 
-Take f (p_1 + p_2) of the contacts at both ends of the half-cycle, with slip zones d_1 and d_2.  The
-bounded change in shear tends to that of full stick if
-
-    sum f (K_N d/2 + 3 L_N d**2/8) = |K_T| + L_T d/2,
-
-with L_T positive in the direction of slip.  A contact of width h adds sum f K_N d**2/(16 h) to the
-right-hand side.  At the first order, L_N = L_T = 0.  With t = s - d
-
-    dq = f (p_1 + p_2) - sqrt(t) R(t) in the stick zone,   dq = f (p_1 + p_2) in the slip zone,
-    slip range = (2/E*) int_0^(d - s) sqrt(u) R(-u) du,
-
-times the direction of slip, +1 or -1.  R(t) = R_0 + R_1 t makes dq tend to its full-stick value far
-from the edge.  A part of a half-cycle obeys the same equations, with the change up to that point.
+Far from the edge the bounded change in shear tends to that of full stick.  This gives d, as in
+`slip_zone`, and R(t) = R_0 + R_1 t in `tractions`.  At the first order, L_N = L_T = 0.  A
+part of a half-cycle obeys the same equations, with the change up to that point.
 
 The shear traction itself is known if the normal loads are constant.  The first loading to Q and
 sigma produces half of the change under twice these loads, because friction in the slip zone is then
