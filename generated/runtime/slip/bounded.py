@@ -180,9 +180,8 @@ def newton(zones: Any, body: Any, of: Any, left: float, right: float) -> Any:
         at_left, at_right = (off_left, skew - by_m / 2, skew), (off_right, -skew, -skew - by_n / 2)
         by_left, by_right = log_step(left, right, at_left, at_right, stuck)
         rounding = 16 * EPS * width
-        if abs(by_left) < NEWTON_RTOL + rounding / min(left, stuck) and abs(
-            by_right
-        ) < NEWTON_RTOL + rounding / min(right, stuck):
+        left_found = abs(by_left) < NEWTON_RTOL + rounding / min(left, stuck)
+        if left_found and abs(by_right) < NEWTON_RTOL + rounding / min(right, stuck):
             return moved(width, left, right, by_left, by_right)
         part = 1 / max(1.0, abs(by_left), abs(by_right))  # a ratio changes by a factor of e at most
     return math.nan, math.nan
