@@ -106,9 +106,9 @@ class _Way(NamedTuple):
         widens = self.a[1] + self.c[1] == wide
         if uneven:
             t = t**2 if widens else 1 - (1 - t) ** 2
-        if narrow == 0:
-            beyond = self._empty_part(1 if widens else 0)
-            t = beyond + (1 - beyond) * t if widens else np.append((1 - beyond) * t, 1.0)
+        if narrow == 0 and widens:
+            beyond = self._empty_part(1)
+            t = beyond + (1 - beyond) * t
         if not (narrow == 0 and widens):
             t = t[1:]
         for sign in (1, -1):
