@@ -317,6 +317,9 @@ def test_at_a_corner_beside_the_end_of_the_stick_zone(gap: float) -> None:
         wanted = float(2 * friction * (whole - stuck))
     found = flat_sloped.shear_change(corner, *cycle, f=friction, **law)
     assert_allclose(found, wanted, rtol=1e-16 / gap + 1e-9)
+    turned = Contact(here.c, here.a, -here.alpha)
+    mirrored = flat_sloped.shear_change(-corner, turned, turned, shear, 0.0, f=friction, **law)
+    assert_allclose(mirrored, wanted, rtol=1e-16 / gap + 1e-9)
 
 
 @given(st.floats(1e-9, 0.5), st.floats(-0.999, 0.999))
