@@ -225,7 +225,7 @@ def _cycle_on(
         most = np.max(total)
         drift = np.max(abs(total - before)) / most if most > 0 else 0.0
         before = total
-        if rounds > 1 and drift <= REPEATED:
+        if rounds and drift <= REPEATED:  # the first loading is no cycle
             break
     a, c = np.min(way.a), np.min(way.c)
     m, n, between, regime = a, c, 0.0, Regime.FULL_STICK
