@@ -28,7 +28,6 @@ from sympy import (
     expand,
     factor,
     limit,
-    nan,
     oo,
     root,
     simplify,
@@ -107,7 +106,7 @@ def _leading(piece: Piece) -> Iterator[Expr]:
         if power.exp.free_symbols and power.base.has(x) and not diff(power.base, x).has(x):
             place = x - power.base / diff(power.base, x)
             before = gently(simplify, curvature.coeff(power) * (x - place) ** 2).subs(x, place)
-            if before.is_finite and not before.has(nan):
+            if before.is_finite:
                 yield before
 
 
