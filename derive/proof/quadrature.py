@@ -14,11 +14,9 @@ from sympy import (
     Piecewise,
     Symbol,
     diff,
-    nan,
     pi,
     piecewise_fold,
     sqrt,
-    zoo,
 )
 
 from derive.symbols import E_star, a, c, h, mid, w, x
@@ -65,14 +63,14 @@ def _over_w(density: Expr) -> Expr:
 
 
 def slope_as_given(g: Expr) -> Expr:
-    """g'(x) by branches; each is differentiated alone if the whole would divide zero by zero."""
+    """g'(x) by branches; a power has branches of its own, because its rate may be 0/0 at zero."""
     branched = g.replace(Max, _larger).replace(Min, _smaller).rewrite(Piecewise)
     branched = branched.replace(ITE, lambda holds, one, other: (holds & one) | (~holds & other))
-    slope = diff(branched, x)
-    if slope.has(zoo, nan):
-        folded = piecewise_fold(branched)
-        slope = Piecewise(*((diff(value, x), holds) for value, holds in folded.args))
-    return slope
+    return diff(branched.replace(_is_branched_power, piecewise_fold), x)
+
+
+def _is_branched_power(node: Expr) -> bool:
+    return bool(node.is_Pow and node.has(Piecewise) and not node.exp.is_Integer)
 
 
 def _larger(first: Expr, *others: Expr) -> Expr:

@@ -31,6 +31,7 @@ from sympy import (
     asinh,
     oo,
     pi,
+    piecewise_fold,
     sqrt,
 )
 
@@ -119,7 +120,7 @@ def _over_pieces(over: Integral, of: Slope) -> Expr:
         start = low if piece.lower == -oo else Max(low, Min(piece.lower, high))
         end = high if piece.upper == oo else Max(low, Min(piece.upper, high))
         held = {slope(xi): piece.slope.subs(x, xi), curvature(xi): piece.curvature.subs(x, xi)}
-        value = over.function.xreplace(held)
+        value = piecewise_fold(over.function.xreplace(held))  # zero where g'' is that at the edge
         if value != 0:
             total += Integral(value, (xi, start, end))
     return total

@@ -2,6 +2,7 @@
 
 import mpmath
 import pytest
+from flint import acb
 from mpmath import mpc, mpf
 from sympy import (
     ITE,
@@ -46,7 +47,7 @@ from sympy import (
     tanh,
 )
 
-from derive.proof.balls import ball, digits, known_digits, number, power, root
+from derive.proof.balls import ball, digits, hull, known_digits, number, power, root
 from derive.proof.values import Undecided, Undefined, evaluated, program
 from derive.symbols import x
 
@@ -100,6 +101,23 @@ def test_what_is_not_real_is_complex_and_a_root_of_rounding_is_real() -> None:
         assert isinstance(number(root((ball(mpf(1)) / 3) * 3 - 1)), mpf)
 
 
+@pytest.mark.parametrize("exponent", [1, 2, 3, -1, -2, -3, 0.5])
+@pytest.mark.parametrize("ends", [(-2, -1), (-1, 2), (1, 3)])
+def test_over_a_box_a_power_has_the_values_of_all_its_numbers_and_no_larger_ones(
+    ends: tuple[int, int], exponent: float
+) -> None:
+    with digits(30):
+        low, high = (ball(mpf(end)) for end in ends)
+        found = program(x ** Rational(exponent), boxes=True)({x: hull(low, high)})
+        if exponent < 0 and ends == (-1, 2):
+            assert not found.is_finite()
+            return
+        values = [acb(low + share * (high - low)) ** exponent for share in (0, 0.25, 1)]
+        assert all(acb(found).contains(value) for value in values)
+        assert abs(found).upper() < 1.8 * max(abs(value).upper() for value in values)
+        assert exponent % 2 != 1 or ends != (-2, -1) or found < 0
+
+
 @pytest.mark.parametrize("name", ["raised", "sqrt", "abs", "x0", "mpf"])
 def test_a_parameter_may_bear_the_name_of_a_function(name: str) -> None:
     named = Symbol(name, positive=True)
@@ -112,6 +130,8 @@ def test_digits_that_cancel_are_made_up_for_or_there_is_no_value() -> None:
     lost = (1 + x) ** 2 / (1 + x) ** Rational(3, 2) - sqrt(1 + x) + sqrt((1 + x) ** 2) - 1
     assert mpmath.almosteq(evaluated(lost, {x: mpf(10) ** -20}), mpf(10) ** -20)
     assert evaluated(lost, {x: mpf(10) ** -400}) == 0
+    with pytest.raises(Undecided, match="cancellation"):
+        evaluated(lost * 10**300, {x: mpf(10) ** -400})
     with digits(15):
         rest = (1 + ball(mpf(10) ** -20)) - 1
     assert rest.rad() > abs(rest.mid())

@@ -33,6 +33,8 @@ def test_contacts_meet_every_assumption_and_lie_on_all_sides(name: str) -> None:
     ):
         assert sum(side > 0 for side in sides) >= POINTS // 5
         assert sum(side < 0 for side in sides) >= POINTS // 5
+    free = [q.symbol for q in body.geometry.parameters if q.symbol not in body.geometry.slope.least]
+    assert all(len({point[s] for point in found}) == POINTS for s in (E_star, *free))
     for point in found:
         assert holds(body["pressure"].conditions, point)
         assert -point[a] < point[x] < point[c]

@@ -5,14 +5,14 @@ from collections.abc import Callable
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Abs, Expr, Max, Min, Rational, S
+from sympy import Abs, Expr, Heaviside, Max, Min, Rational, S
 
-from derive import Geometry, x
-from derive.proof.points import Point, numeric
+from derive import Geometry, derive_sheet, parameter, prove_sheet, x
+from derive.proof.points import Point, contacts, numeric
 from derive.proof.quadrature import slope_as_given, value_by_quadrature
 from derive.symbols import E_star, a, c
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, CASES, VALUES, b, close, geometry
+from tests.derive.bodies import BODIES, CASES, VALUES, R, b, close, geometry
 
 
 def contact(
@@ -40,6 +40,18 @@ def test_a_cylinder_by_hand(left: float, right: float) -> None:
     for side in ("left", "right"):  # sqrt(h - s) = sqrt(h) (1 - s/2h + ...)
         assert close(here(f"K_N_{side}"), E * mpmath.sqrt(width) / (2 * radius))
         assert close(here(f"L_N_{side}"), -E / (4 * radius * mpmath.sqrt(width)))
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_edges_of_a_quartic_by_hand(side: str) -> None:
+    """p = (E*/4 b**3) (a**2 + 2 x**2) sqrt(a**2 - x**2) for a = c and g = x**4/(4 b**3).
+
+    With x = a - s it is (E*/4 b**3) sqrt(2 a s) (1 - s/4a) (3 a**2 - 4 a s), up to s**2.
+    """
+    here, half = contact(Geometry("quartic", x**4 / (4 * b**3)), 2.0, 2.0, b=1.5), mpf(2)
+    factor = mpf(VALUES["E_star"]) / (4 * mpf(1.5) ** 3) * mpmath.sqrt(2 * half)
+    assert close(here(f"K_N_{side}"), 3 * factor * half**2)
+    assert close(here(f"L_N_{side}"), -(4 + mpf(3) / 4) * factor * half)
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
@@ -71,7 +83,7 @@ def test_it_takes_the_slope_from_g_as_written_and_agrees_with_another_quadrature
     assert close(here("moment"), integrals.moment(*over, E), scale=here("load"))
 
 
-@pytest.mark.parametrize("ramp", [(x + Abs(x)) / 2, x - Min(0, x), Max(0, x)])
+@pytest.mark.parametrize("ramp", [(x + Abs(x)) / 2, x - Min(0, x), Max(0, x), x * Heaviside(x)])
 @pytest.mark.parametrize("power", [S(3), Rational(5, 2)])
 def test_powers_of_a_ramp(ramp: Expr, power: Expr) -> None:
     """x**2 + ramp**n on [-1, 1]: alpha = -(n/pi) int_0^1 s**(n - 1)/sqrt(1 - s**2) ds."""
@@ -79,3 +91,13 @@ def test_powers_of_a_ramp(ramp: Expr, power: Expr) -> None:
     n, one = mpf(power.p) / power.q, mpf(1)
     here = contact(body, 1, 1, b=1)
     assert close(here("tilt"), -n * mpmath.beta(n / 2, one / 2) / (2 * mpmath.pi))
+
+
+@pytest.mark.parametrize("ramp", [Max(0, x - b) / b, (x / b - 1) * Heaviside(x - b)])
+def test_a_power_beyond_a_kink_is_proven_for_contacts_on_both_sides_of_it(ramp: Expr) -> None:
+    k = parameter("k", "exponent", unit="-")
+    sheet = prove_sheet(derive_sheet(Geometry("ramp", b * ramp**k + x**2 / (2 * R))))
+    (kink,) = sheet.geometry.slope.kinks
+    assert {point[c] > point[kink.position] for point in contacts(sheet)} == {True, False}
+    proofs = (sheet[name].proof for name in ("pressure", "K_N_right", "L_N_right"))
+    assert all(proof is not None and proof.holds for proof in proofs)
