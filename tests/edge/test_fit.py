@@ -78,6 +78,7 @@ P = np.sqrt(np.maximum(1 - X**2, 0.0))
 COARSE = np.arange(-11, 12) * 0.1 + 0.03
 NOISE = 1 + 0.05 * np.random.default_rng(0).standard_normal(len(X))
 FINE = np.linspace(-1.2, 1.2, 49)
+WIDE = np.linspace(-3, 3, 25)  # seven nodes from -0.75 to 0.75 are in contact
 WITHOUT = np.delete(np.arange(len(X)), np.arange(27, 38))  # eleven nodes in the middle
 
 
@@ -87,6 +88,7 @@ WITHOUT = np.delete(np.arange(len(X)), np.arange(27, 38))  # eleven nodes in the
         (COARSE, np.sqrt(np.maximum(1 - COARSE**2, 0.0)), "there are only 20 nodes"),
         (COARSE[::2], np.sqrt(np.maximum(1 - COARSE[::2] ** 2, 0.0)), "there are only 10 nodes"),
         (COARSE[::4], np.sqrt(np.maximum(1 - COARSE[::4] ** 2, 0.0)), "are too few"),
+        (WIDE, np.sqrt(np.maximum(1 - WIDE**2, 0.0)), "7 nodes in contact are too few"),
         (COARSE, cosh_with_a_kink(COARSE, 0.5, 0.3)[0], "there are only 20 nodes"),
         (X, P * NOISE, "K_N is known only to within"),
         (X[WITHOUT], P[WITHOUT], "nodes are missing between x = -0.163333 and 0.236667"),

@@ -74,6 +74,7 @@ def test_both_edges_of_the_same_body_give_its_own_loads() -> None:
     assert_allclose((rig.dQ, rig.dsigma, rig.dP), (3e5, 2.5e7, 0.025 * 2.6e6), rtol=1e-6)
     assert_allclose(rig.dM, 0, atol=1e-3)
     assert_allclose(rig.d, d, rtol=1e-6)
+    assert_allclose([e[:5] for e in rig.edges], [e[:5] for e in edges], rtol=1e-6)
     assert_allclose(rig.second, end, rtol=1e-6)
     assert rig.missed == () and len(rig.met) == 10
 

@@ -248,6 +248,5 @@ def _cycle_on(
 def _compare_rounds(fine: _Found, coarse: _Found) -> Any:
     """The error of the stick zone of a steady cycle."""
     found = fine.result
-    if fine.mesh is None or coarse.mesh is None or found.regime == Regime.NO_STICK:
-        return math.nan
-    return _zone_error(fine, coarse, found.m + found.n) if found.drift <= REPEATED else math.inf
+    error = _zone_error(fine, coarse, found.m + found.n)
+    return error + math.inf if found.drift > REPEATED else error  # NaN stays NaN
