@@ -15,8 +15,8 @@ F = 0.5
 # With f = 1/2.  Order 1: 0.01/(0.5*0.3125) = 0.064, half of what the edge gains is added.
 # Order 2, K_N = 2, L_N = 4, L_T = 1: d - d/2 + (3/2) d**2 = K_T, so d = 1/2 for 5/8; h = 1 puts
 # d**2/8 more on the right.  An edge that moves by 1/10 had K_N = 2 + (3/2) 4/10 = 2.6 and 2/5 of
-# slip: (1/2)(2/4 + 3*4/32) + (1/2)(2.6/5 + 3*4*0.16/8) = 0.8175 = K_T + 1/4.  One that moves by half
-# of a slip zone of 2, with K_N = 1 and L_N = 4/3, had K_N = 3:
+# slip: (1/2)(2/4 + 3*4/32) + (1/2)(2.6/5 + 3*4*0.16/8) = 0.8175 = K_T + 1/4.
+# One that moves by half of a slip zone of 2, with K_N = 1 and L_N = 4/3, had K_N = 3:
 # (1/2)(2/2 + (4/3) 3*4/8) + (1/2)(3/2 + (4/3) 3/8) = 5/2 = K_T.
 BY_HAND = [
     (0.3125, 0.01, {}, 0.064, np.nan),
