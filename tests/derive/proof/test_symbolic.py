@@ -42,6 +42,14 @@ def test_a_rate_is_proven_and_what_is_not_it_is_not(body: str, name: str) -> Non
         assert symbolic_proof(falsified(sheet(body), name, change), name) is None
 
 
+def test_every_formula_of_a_cylinder_is_proven_and_with_another_sign_it_is_not() -> None:
+    whole = sheet("hertz")
+    by_numbers = {f"contact_at_tilt_{found}" for found in ("a", "c", "M")}
+    for name in whole.keys() - by_numbers - {"contact_alpha", "stick_m", "stick_n"}:
+        assert symbolic_proof(whole, name) is not None, name
+        assert symbolic_proof(falsified(whole, name, FALSE["sign"]), name) is None, name
+
+
 @pytest.mark.parametrize("name", ["tilt", "K_N_left", "stick_m", "contact_a"])
 def test_numbers_agree_with_what_is_true_and_refute_what_is_not(name: str) -> None:
     """Routes by quadrature of g(x), at the ends of the stick zone, and by substitution."""
