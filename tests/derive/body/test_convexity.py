@@ -55,6 +55,11 @@ def demands(g: Expr) -> list[str]:
             Max(0, x) ** 5 / L**4 - Max(0, x) ** 4 / B**3 + x**2 / R,
             ["25*B**9 - 8*L**8*R >= 0"],
         ),
+        # g'' = 20 x^3/L^4 - 6 x/B^2 + 2/R, least at x = L^2/(sqrt(10) B): (2/3) 6 x/B^2 <= 2/R
+        (
+            Max(0, x) ** 5 / L**4 - Max(0, x) ** 3 / B**2 + x**2 / R,
+            ["5*B**6 - 2*L**4*R**2 >= 0"],
+        ),
         # g'' = (x + L)(x^2 - phi b x + b^2)/(b^2 L R) on the right, where x + L > 0
         (
             Piecewise(
