@@ -51,12 +51,12 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
 
 
 def _proof(sheet: FormulaSheet, name: str) -> Proof:
-    """The proof of one formula; a closed form that cannot be evaluated somewhere is not proven."""
-    if not sheet[name].closes:
-        proof = combined(symbolic_proof(sheet, name), numeric_proof(sheet, name))
-        return _also_computed(sheet, name, proof)
+    """The proof of one formula; what cannot be evaluated somewhere is not proven."""
+    is_closed_form = bool(sheet[name].closes)
     try:
-        return combined(None, numeric_proof(sheet, name))
+        symbolic = None if is_closed_form else symbolic_proof(sheet, name)
+        proof = combined(symbolic, numeric_proof(sheet, name))
+        return proof if is_closed_form else _also_computed(sheet, name, proof)
     except (ArithmeticError, ValueError, TypeError, NoConvergence) as error:
         return Proof(Verdict.UNKNOWN, f"cannot be evaluated: {error}")
 
