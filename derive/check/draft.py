@@ -5,8 +5,8 @@ No claim in the draft is judged before a user has accepted its reading and defin
 
 import re
 from collections import Counter
-from collections.abc import Collection
-from dataclasses import dataclass, field
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +32,7 @@ from derive.reading.formula import (
 )
 from derive.reading.improper import typed
 from derive.reading.latex import Latex
-from derive.reading.lexer import Token, plain
+from derive.reading.lexer import plain
 from derive.reading.relation import Relation
 from derive.reading.spellings import functions_in, spellings, unclear_call
 from derive.reading.statements import Statement, remarks, statements
@@ -40,20 +40,18 @@ from derive.reading.substitution import substitution
 
 _SECONDS = 10.0
 """The time limit for reading one equation, in seconds."""
-_HEAD = """title = ""
-
+_HEAD = """{title}
 # Four answers give the paper's letters their standard meanings: the body (`derive list`), whether
 # the contact is symmetric, the elastic constants, and the letters that differ from ours.  A line
 # of yours in [symbols] or [variables] beats a standard meaning.  Write a formula for each "" in
 # [symbols], such as h = '(a + c)/2', or move the symbol to [variables].
 {answers}
-
 [variables]                # positive, unless they have a range, such as t = {{ low = 0, high = 1 }}
 
 [symbols]
-
+{symbols}
 [latex]
-"""
+{latex}{unread}"""
 _EXAMPLE: dict[str, Any] = {
     "symmetric": True,
     "modulus": "E_star",
@@ -62,102 +60,40 @@ _EXAMPLE: dict[str, Any] = {
 """The table [paper] that stands in the draft as a comment until the user answers."""
 _DEFINES = (":=", r"\equiv", r"\coloneqq", r"\triangleq")
 
+Answers = tuple[str, dict[str, Any]] | tuple[()]
+"""The body and the table [paper]; empty if the user has not answered."""
 
-@dataclass
+
+@dataclass(frozen=True)
 class Draft:
     """The content of a paper that was read.
 
-    title         the title of the paper, or the name of its file
     environments  the number of displays in the file
-    answers       the body and the table [paper]; empty if the user has not answered
-    standard      the standard meanings that follow from the answers
-    spelled       the LaTeX of each symbol -> its name
-    defined       the definitions in the paper that may be meanings, each with its place
     claims        the entries of each claim in the file
+    meant         the standard formulas of the paper's symbols
+    open          the symbols without a meaning, each with its definition in the paper and its place
+    text          the text of the claims file
     """
 
-    title: str
     environments: int
-    answers: tuple[str, dict[str, Any]] | tuple[()] = ()
-    standard: Standard = NONE
-    spelled: dict[str, str] = field(default_factory=dict)
-    defined: dict[str, dict[str, str]] = field(default_factory=dict)
-    claims: list[dict[str, Any]] = field(default_factory=list)
+    claims: list[dict[str, Any]]
+    meant: dict[str, str]
+    open: dict[str, dict[str, str]]
+    text: str
 
     @property
     def unread(self) -> list[str]:
         """The entries `unchecked` of claims, each with its place in the paper."""
-        claims = (each for each in self.claims if "unchecked" in each)
-        return [f"{each['place']}: {each['unchecked']}" for each in claims]
+        return _unread(self.claims)
 
     @property
     def understood(self) -> int:
         """The number of statements that were read."""
         return sum("understood" in each for each in self.claims)
 
-    @property
-    def known(self) -> frozenset[str]:
-        """The names that every claims file with these answers knows."""
-        return frozenset({*PLACES, *self.standard.letters.values()})
-
-    def meant(self) -> dict[str, str]:
-        """The standard formulas of the paper's symbols."""
-        return {n: entry.text for n, entry in self.standard.of({*self.spelled.values()}).items()}
-
-    def open(self) -> dict[str, dict[str, str]]:
-        """The symbols without a meaning, with what the paper says of each."""
-        known = self.known | self.meant().keys()
-        return {n: self.defined.get(n, {}) for n in self.spelled.values() if n not in known}
-
-    def drop_unused(self, in_text: Collection[str]) -> None:
-        """Keep the symbols of claims, and those of the text that definitions of others need.
-
-        A symbol that is only bound by an integral, sum or limit is dropped.
-        """
-        nothing = Names("", {}, {})
-        texts = [each.get(key, "") for each in self.claims for key in ("understood", "require")]
-        texts += [side for each in self.claims for side in each.get("as", "").split("->")]
-        free = {name for text in texts for name in unknown(text, nothing)}
-        bound = {name for text in texts for name in re.findall(r"\w+", text)} - free - self.known
-        printed = {name for latex, name in self.spelled.items() if latex not in in_text}
-        bound -= {a for name in printed for a in name.partition("_at_")[2].split("_")}
-        names = [name for name in printed if name not in bound]
-        for name in names:
-            used = unknown(self.defined.get(name, {}).get("proposal", ""), nothing)
-            names += [each for each in used if each in self.spelled.values() and each not in names]
-        self.spelled = {latex: name for latex, name in self.spelled.items() if name in names}
-
-    def _answered(self) -> str:
-        """The answers of the user as lines of the file, or an example as a comment."""
-        body, paper = self.answers or ("hertz", _EXAMPLE)
-        lines = [f"{key} = {_toml(entry).as_string()}" for key, entry in paper.items()]
-        lines = [f"body = '{body}'", "[paper]", *lines]
-        return "\n".join(lines if self.answers else (f"# {line}" for line in lines))
-
-    def text(self) -> str:
-        """The text of the claims file."""
-        made = tomlkit.parse(_HEAD.format(answers=self._answered()))
-        made["title"], symbols, latex = _toml(self.title), made["symbols"], made["latex"]
-        for name, given in self.open().items():
-            symbols[name] = _toml(given or "")
-        for spelled, name in self.spelled.items():
-            latex[spelled] = name
-        if self.unread:
-            for line in ("These statements were not read, or not completely:", *self.unread):
-                latex.add(tomlkit.comment(line))
-        claims = tomlkit.aot()
-        for each in self.claims:
-            claims.append(table := tomlkit.table())
-            table.update({key: _toml(entry) for key, entry in each.items()})
-        made["claims"] = claims
-        return tomlkit.dumps(made)
-
 
 def draft_claims(
-    path: Path,
-    inline: bool = False,
-    answers: tuple[str, dict[str, Any]] | tuple[()] = (),
-    standard: Standard = NONE,
+    path: Path, inline: bool = False, answers: Answers = (), standard: Standard = NONE
 ) -> Draft:
     """Read a LaTeX file; raise BadClaimsFile if its displays cannot be found.
 
@@ -165,41 +101,71 @@ def draft_claims(
     answers, standard: the user's answers, and the meanings that follow from them
     """
     source = displays(path, inline)
-    if all(each.is_aside for each in source.found):
+    if not source.found:
         why = "the file has no displayed equations"
         raise BadClaimsFile(str(path), why, "give a paper in LaTeX")
-    made = Draft(source.title or path.name, source.environments, answers, standard)
-    known = [(each, _statements(path.name, each)) for each in source.found]
-    shown, asides = list[list[Token]](), list[list[Token]]()
-    for display, statement in ((d, each) for d, found in known for each in found if not each.why):
-        formulas = asides if display.is_aside else shown
-        formulas += [statement.tokens, *statement.conditions]
-    functions = functions_in(shown)
-    spelled = _spelled(shown, functions)
-    made.spelled = _spelled(asides, functions) | spelled
-    names = Names("", {name: Symbol(name) for name in made.spelled.values()}, {})
+    printed = [(each, _statements(path.name, each)) for each in source.found]
+    read = [each for _, found in printed for each in found if not each.why]
+    formulas = [formula for each in read for formula in (each.tokens, *each.conditions)]
+    functions = functions_in(formulas)
+    spelled = {own: n for each in formulas for own, n in spellings(each, functions).items()}
+    names = Names("", {name: Symbol(name) for name in spelled.values()}, {})
+    claims, defined = list[dict[str, Any]](), dict[str, dict[str, str]]()
     used, seen = Counter[str](), set[str]()
-    for display, found in known:
-        latex = Latex("the draft", display.latex, made.spelled if display.is_aside else spelled)
+    for display, found in printed:
+        latex = Latex("the draft", display.latex, spelled)
         labels = [_label(display, each) for each in found]
         for part, (label, statement) in enumerate(zip(labels, found, strict=True), 1):
-            read, (name, formula) = _read(latex, statement, functions, names)
+            entries, (name, formula) = _read(latex, statement, functions, names)
             place = _place(path.name, display, part if len(found) > 1 else 0)
             is_stated = display.is_defined or _is_stated(display.latex, statement)
-            if name and name not in made.defined and (is_stated or name not in seen):
-                made.defined[name] = {"proposal": formula, "meaning": place}
-            seen.update(re.findall(r"[A-Za-z]\w*", read.get("understood", "")))
-            if display.is_aside:
-                continue
+            if name and name not in defined and (is_stated or name not in seen):
+                defined[name] = {"proposal": formula, "meaning": place}
+            seen.update(re.findall(r"[A-Za-z]\w*", entries.get("understood", "")))
             label += f"/{labels[:part].count(label)}" if labels.count(label) > 1 else ""
             used[label] += 1
             label += f" [{used[label]}]" if used[label] > 1 else ""
             says = _one_line(", ".join(remarks(display.latex)))
-            printed: dict[str, Any] = {"label": label, "place": place, "says": says}
-            printed |= {"latex": display.latex, "part": part if statement.tokens else 0}
-            made.claims.append({key: e for key, e in printed.items() if e} | read)
-    made.drop_unused(made.spelled.keys() - spelled.keys())
-    return made
+            claim: dict[str, Any] = {"label": label, "place": place, "says": says}
+            claim |= {"latex": display.latex, "part": part if statement.tokens else 0}
+            claims.append({key: e for key, e in claim.items() if e} | entries)
+    known = {*PLACES, *standard.letters.values()}
+    bound = _bound(claims, spelled.values()) - known
+    spelled = {own: name for own, name in spelled.items() if name not in bound}
+    meant = {n: entry.text for n, entry in standard.of({*spelled.values()}).items()}
+    left = {n: defined.get(n, {}) for n in spelled.values() if n not in known | meant.keys()}
+    unread = _unread(claims)
+    told = ("These statements were not read, or not completely:", *unread) if unread else ()
+    head = _HEAD.format(
+        title=_toml({"title": source.title or path.name}),
+        answers=_answered(answers),
+        symbols=_toml({name: said or "" for name, said in left.items()}),
+        latex=_toml(spelled),
+        unread="".join(f"# {line}\n" for line in told),
+    )
+    text = "".join((head, *(f"\n[[claims]]\n{_toml(each)}" for each in claims)))
+    return Draft(source.environments, claims, meant, left, text)
+
+
+def _answered(answers: Answers) -> str:
+    """The answers of the user as lines of the file, or an example as a comment."""
+    body, paper = answers or ("hertz", _EXAMPLE)
+    lines = f"{_toml({'body': body})}[paper]\n{_toml(paper)}"
+    return lines if answers else re.sub(r"^", "# ", lines.rstrip(), flags=re.MULTILINE) + "\n"
+
+
+def _unread(claims: list[dict[str, Any]]) -> list[str]:
+    return [f"{each['place']}: {each['unchecked']}" for each in claims if "unchecked" in each]
+
+
+def _bound(claims: list[dict[str, Any]], printed: Collection[str]) -> set[str]:
+    """Return the symbols that are only bound by integrals, sums and limits."""
+    nothing = Names("", {}, {})
+    texts = [each.get(key, "") for each in claims for key in ("understood", "require")]
+    texts += [side for each in claims for side in each.get("as", "").split("->")]
+    free = {name for text in texts for name in unknown(text, nothing)}
+    free |= {part for name in printed for part in name.partition("_at_")[2].split("_")}
+    return {name for text in texts for name in re.findall(r"\w+", text)} - free
 
 
 # ------------------------------------------------------------------ one statement
@@ -278,11 +244,6 @@ def _statements(name: str, display: Display) -> list[Statement]:
         return [Statement([], why=reason(error))]
 
 
-def _spelled(formulas: list[list[Token]], functions: Collection[str]) -> dict[str, str]:
-    """Return a name for the LaTeX of every symbol in formulas."""
-    return {latex: n for each in formulas for latex, n in spellings(each, functions).items()}
-
-
 def _is_stated(latex: str, statement: Statement) -> bool:
     r"""Whether a statement is printed with := or \equiv, or after the word where."""
     start = statement.tokens[0].at if statement.tokens else 0
@@ -310,17 +271,19 @@ def _one_line(text: str) -> str:
     return " ".join("".join(c if c.isprintable() else " " for c in text).split())
 
 
-def _toml(entry: Any) -> Item:
-    """Return an entry for TOML; text is literal if possible, so that LaTeX stays legible."""
+def _toml(entries: Mapping[str, Any]) -> str:
+    """Return lines of TOML; text is literal if possible, so that LaTeX stays legible."""
+    return tomlkit.dumps({key: _item(entry) for key, entry in entries.items()})
+
+
+def _item(entry: Any) -> Item:
     if isinstance(entry, dict):
         table = tomlkit.inline_table()
-        table.update({key: _toml(inner) for key, inner in entry.items()})
+        table.update({key: _item(inner) for key, inner in entry.items()})
         return table
     if not isinstance(entry, str):
         return tomlkit.item(entry)
     text = "".join(c if c.isprintable() or c in "\n\t" else " " for c in entry)
-    if "'" not in text and "\n" not in text:
-        return tomlkit.string(text, literal=True)
-    if "'''" in text or text.endswith("'"):
-        return tomlkit.string(text)
-    return tomlkit.string(text, literal=True, multiline=True)
+    is_long, quote = "'" in text or "\n" in text, "'''"
+    is_literal = not is_long or not (quote in text or text.endswith("'"))
+    return tomlkit.string(text, literal=is_literal, multiline=is_literal and is_long)

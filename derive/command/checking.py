@@ -34,10 +34,10 @@ def write_draft(file: Path | None, new: Path, inline: bool) -> None:
     answers, meanings = _answers()
     with status("reading the displayed equations"):
         made = draft_claims(file, inline, answers, meanings)
-    put_page(made.text(), new, "--draft", mark=None)
+    put_page(made.text, new, "--draft", mark=None)
     click.echo(f"{made.environments} displayed equations with {len(made.claims)} statements")
     click.echo(f"Wrote {path_of(new.absolute())}: {made.understood} statements read")
-    meant, left = made.meant(), made.open()
+    meant, left = made.meant, made.open
     for name, formula in meant.items():
         click.echo(f"meaning: {name} = {formula}")
     proposed = sum(map(bool, left.values()))

@@ -16,7 +16,7 @@ _MOST = 500
 _LONGEST_LINE = 300
 """A formula in the text must have fewer characters than this."""
 _NEAR = 80
-"""The number of characters before a formula in the text in which such a word stands."""
+"""The number of characters before a display in which the word "where" stands."""
 _EXPANDED = 20_000
 """The largest number of characters in a display after its macros are expanded."""
 _EXPANSIONS = 1000
@@ -38,13 +38,8 @@ _MACRO = re.compile(
     r"\s*(?:\[([1-9])\])?\s*(?=\{)|\\def\s*(\\[A-Za-z]+)\s*(?=\{)"
 )
 _INLINE = re.compile(r"(?<![\\$])\$([^$]+)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
-_DEFINES = re.compile(
-    r"\b(?:where|here|with|let|put|set|write|denot\w*|defin\w*)\W(?:[^.$\\]|\\[ ,])*$",
-    re.IGNORECASE,
-)
-"""Words before a formula in the text that make it a definition."""
 _WHERE = re.compile(r"\bwhere\W(?:[^.$\\]|\\[ ,])*$", re.IGNORECASE)
-"""The same before a display."""
+"""What stands before a display that is a definition."""
 _MATRIX = re.compile(r"\\begin\s*\{\w*(?:matrix|array)\}")
 _TITLE = re.compile(r"\\title\s*(?:\[[^]]*\])?\s*(?=\{)")
 _RELATION = r"(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))"
@@ -58,8 +53,7 @@ class Display:
     labels      the arguments of \\label, in order
     line        the line of the file, counted from 1
     latex       the source, without comments and with macros expanded
-    is_defined  whether a word such as "where" stands before it
-    is_aside    whether it is such a definition in the text, and no claim
+    is_defined  whether the word "where" stands before it
     """
 
     number: str
@@ -67,15 +61,13 @@ class Display:
     line: int
     latex: str
     is_defined: bool = False
-    is_aside: bool = False
 
 
 @dataclass(frozen=True)
 class Source:
     """The content of a LaTeX file.
 
-    found         the displays, tables and matrices; of the relations in the text all if they were
-                  requested, and otherwise those that follow a word such as "where"
+    found         the displays, tables and matrices, and the relations in the text if requested
     environments  the number of displays
     title         the title as plain text; empty if there is none
     """
@@ -111,19 +103,16 @@ def displays(path: Path, inline: bool = False) -> Source:
     start = max(text.find(r"\begin{document}"), 0)
     macros, found, between, count = _macros(text[:start]), list[Display](), text, 0
 
-    def made(latex: str, at: int, number: str = "", **kind: bool) -> Display:
+    def made(latex: str, at: int, number: str = "", is_defined: bool = False) -> Display:
         line, labels = text.count("\n", 0, at) + 1, tuple(LABEL.findall(latex))
-        return Display(number, labels, line, _expanded(latex, macros).strip(), **kind)
-
-    def words_before(at: int) -> str:
-        return between[max(at - _NEAR, start) : at]
+        return Display(number, labels, line, _expanded(latex, macros).strip(), is_defined)
 
     for (before, at, end, after), kind, numbers in _bodies(str(path), text, start):
         if kind.rstrip("*") in _TABLES:
             if re.search(r"\d", text[at:end]):
                 found.append(made(text[before:after], before))
             continue
-        is_defined, count = bool(_WHERE.search(words_before(before))), count + 1
+        words, count = between[max(before - _NEAR, start) : before], count + 1
         between = between[:before] + " " * (after - before) + between[after:]
         if count > _MOST:
             why = f"the file has more than {_MOST} displays"
@@ -132,17 +121,15 @@ def displays(path: Path, inline: bool = False) -> Source:
             printed = (numbers.of(row, kind.endswith("*")) for row in rows)
             latex = "".join(rows).removesuffix(r"\\")
             number = ", ".join(filter(None, printed))
-            found.append(made(latex, at, number, is_defined=is_defined))
+            found.append(made(latex, at, number, bool(_WHERE.search(words))))
             at += len("".join(rows))
     relations = list[Display]()
     for each in _INLINE.finditer(between, start):
         latex = each[1] or each[2]
         is_relation = re.search(rf"[^\s{{(]\s*{_RELATION}\s*[^\s}})]", latex)
-        is_short, is_matrix = len(latex) < _LONGEST_LINE, bool(_MATRIX.search(latex))
-        is_defined = bool(_DEFINES.search(words_before(each.start())))
-        if is_matrix or (is_relation and is_short and (inline or is_defined)):
-            is_aside = not (inline or is_matrix)
-            relations.append(made(latex, each.start(), is_defined=is_defined, is_aside=is_aside))
+        is_short = len(latex) < _LONGEST_LINE
+        if _MATRIX.search(latex) or (inline and is_relation and is_short):
+            relations.append(made(latex, each.start()))
     found += relations[: max(_MOST - len(found), 0)]
     found.sort(key=lambda each: each.line)
     return Source(found, count, _title(text, macros))

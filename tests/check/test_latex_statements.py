@@ -29,7 +29,7 @@ def drafted(folder: Path, body: str) -> Draft:
 
 
 def claims(folder: Path, body: str) -> list[dict[str, object]]:
-    found: list[dict[str, object]] = tomllib.loads(drafted(folder, body).text())["claims"]
+    found: list[dict[str, object]] = tomllib.loads(drafted(folder, body).text)["claims"]
     return found
 
 
@@ -358,7 +358,7 @@ def test_what_a_paper_defines_is_proposed(latex: str, defined: str, tmp_path: Pa
     A letter that occurred before is defined only after "where".
     """
     made = drafted(tmp_path, rf"\[ {latex} \]")
-    found = [f"{n} = {said['proposal']}" for n, said in made.open().items() if said]
+    found = [f"{n} = {said['proposal']}" for n, said in made.open.items() if said]
     assert found == [each for each in defined.split(", ") if each]
 
 
@@ -378,7 +378,7 @@ def test_bound_variables_are_no_symbols(tmp_path: Path) -> None:
         r"\[ y = \int_b^a \frac{t}{\sqrt{t^2-x^2}}\,dt \] \[ z = \sum_{k=1}^{3} k a \]"
         r"\[ w = r \int_0^a r p(r)\,dr \]",
     )
-    names = set(tomllib.loads(made.text())["symbols"])
+    names = set(tomllib.loads(made.text)["symbols"])
     assert names == {"y", "b", "a", "z", "w", "r", "p_at_r"}
     assert made.understood == 3
     assert unknown("t = integral(t, t, 0, 1)", Names("", {}, {})) == ["t"]
@@ -386,7 +386,7 @@ def test_bound_variables_are_no_symbols(tmp_path: Path) -> None:
 
 
 def test_latex_with_an_apostrophe_stays_legible(tmp_path: Path) -> None:
-    text = drafted(tmp_path, r"\[ y = \frac{f'(r)}{2} \]").text()
+    text = drafted(tmp_path, r"\[ y = \frac{f'(r)}{2} \]").text
     assert "latex = '''y = \\frac{f'(r)}{2}'''" in text
 
 

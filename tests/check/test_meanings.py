@@ -184,7 +184,7 @@ def test_answers_that_are_refused(answers: str, why: str, tmp_path: Path) -> Non
 PAPER = r"""
 \begin{document}
 \begin{equation} P = \frac{E^* b^2}{4R}(\pi - 2\phi_0 - \sin 2\phi_0) \end{equation}
-where $\phi_0 = \arcsin(a/b)$ and $k = 3$ is not used.
+where \[ \phi_0 = \arcsin(a/b) \] and $k = 3$ is not read.
 \begin{equation} \sin\psi_0 = a/c, \quad f := \frac{Q}{\mu P} \end{equation}
 \begin{equation} K_N = \frac{2 E^*\sqrt{2b}}{\pi R}\arccos\frac{a}{b} \end{equation}
 \begin{equation} t = \frac{u}{b}, \quad x > 0 \end{equation}
@@ -215,10 +215,10 @@ def test_a_paper_in_ten_minutes(tmp_path: Path) -> None:
     shown = run(new, "--accept", answers="y\nn\ny\nall\n").output
     assert "standard meaning: P = load(b, b), normal load" in shown
     assert "1 of 3: phi_0\n  defined at  paper.tex:4\n  means       asin(a/b)" in shown
-    assert "7 accepted, 1 left" in shown
+    assert "8 accepted, 1 left" in shown
     found = [(it["verdict"], it["rests_on"]) for it in told(tmp_path, new.read_text())]
     assert [verdict for verdict, _ in found] == [
-        *("numerical", "unchecked", "by definition", "fails", "unchecked")
+        *("numerical", "by definition", "unchecked", "by definition", "fails", "unchecked")
     ]
 
 
