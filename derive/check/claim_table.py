@@ -15,9 +15,9 @@ from typing import Any
 from msgspec.structs import replace as with_entries
 from sympy import Expr, Symbol
 
-from derive.check.bodies import body_of
+from derive.check.bodies import ProvenBody, body_of
 from derive.check.claim import AsMeant, Claim
-from derive.check.context import Context, Meant, as_text, calls_in, free, with_real_bound
+from derive.check.context import Context, as_text, calls_in, free, with_real_bound
 from derive.check.declarations import Declarations, demand_name
 from derive.check.equation import Equation
 from derive.check.mistakes import Collected, limited, reason
@@ -49,7 +49,7 @@ class ClaimReader:
     mistakes: list[UserError] = field(default_factory=list)
     _defined: dict[str, tuple[str, str]] = field(default_factory=dict)
     _made: dict[str, Claim] = field(default_factory=dict)
-    _contexts: dict[tuple[object, ...], Context] = field(default_factory=dict)
+    _contexts: dict[ProvenBody | None, Context] = field(default_factory=dict)
 
     def claim(self, given: Mapping[str, Any], place: Place) -> Claim:
         """Return a claim, which must have a label."""
@@ -78,46 +78,34 @@ class ClaimReader:
     def wrong_symbols(self, bodies: Iterable[object]) -> list[UserError]:
         """Return the errors in symbols that have no meaning with the file's body or another one."""
         place = self.declared.place
-        found, others = self._context(place).meant.wrong, list[Mapping[str, UserError]]()
+        found, others = self._context(place).wrong, list[Mapping[str, UserError]]()
         for body in bodies:
             with suppress(UserError):  # which makes the claim unchecked
-                others.append(self._context(place, body).meant.wrong)
+                others.append(self._context(place, body).wrong)
         return [error for name, error in found.items() if all(name in each for each in others)]
 
     def _context(
-        self,
-        place: Place,
-        given: object = None,
-        own: Mapping[str, Formula] = MappingProxyType({}),
-        free: bool = False,
+        self, place: Place, given: object = None, own: Mapping[str, Formula] = MappingProxyType({})
     ) -> Context:
-        """Return the context of a claim with its own body, if it gives one, and own symbols.
-
-        free: whether symbols without a meaning are positive variables
-        """
+        """Return the context of a claim with its own body, if it gives one, and own symbols."""
         body = self.declared.body if given is None else body_of(given, place)
         for name in own:
             demand_name(name, place)
+        if body not in self._contexts:
+            self._contexts[body] = Context(self.declared, body, self.declared.symbols)
         texts = {name: str(formula).strip() for name, formula in own.items()}
-        key = (id(body), free, *sorted(texts.items()))
-        if key not in self._contexts:
-            meant = self._context(place, given).meant if own else Meant()
-            meant = meant.without(meant.with_users(own))
-            symbols = self.declared.symbols | texts
-            unknown = tuple(name for name, text in symbols.items() if free and not text)
-            symbols = {name: text for name, text in symbols.items() if name not in unknown}
-            self._contexts[key] = Context(self.declared, body, symbols, unknown, meant)
-        return self._contexts[key]
+        return self._contexts[body].replaced(texts) if own else self._contexts[body]
 
     def _redefined(self, entry: Entry, place: Place, changed: Mapping[str, Formula]) -> Context:
         """Return the context with the symbols that the given claims define, and others changed."""
-        given = self._given(entry.given or [], place.inside("given"))
         own = {**entry.symbols, **changed}
-        known = {**self.declared.symbols, **own}
-        own |= {name: formula for name, formula in given.items() if not known.get(name)}
-        context = self._context(place, entry.body, own, entry.given is not None)
-        others = {name: formula for name, formula in given.items() if name not in own}
-        return context.replaced(others) if others else context
+        context = self._context(place, entry.body, own)
+        if entry.given is None:
+            return context
+        known = {name for name, text in context.symbols.items() if text}
+        given = self._given(entry.given, place.inside("given"))
+        given = {name: text for name, text in given.items() if name not in known & own.keys()}
+        return context.replaced(given, known, is_open=True)
 
     def _claim(self, claim: Claim, place: Place, context: Context) -> Claim:
         """Return a claim; raise UserError if one of its entries is wrong."""
@@ -139,7 +127,7 @@ class ClaimReader:
             context = self._redefined(entry, place, {})
             names = context.names(place)
             left, relation, right = equation(claim.text, names, _may_be_rough(entry, claim.text))
-        undefined = {Symbol(name) for name in context.symbols} - context.meant.in_variables.keys()
+        undefined = {Symbol(name) for name in context.symbols} - context.meaning.keys()
         left, right = (with_real_bound(side, undefined) for side in (left, right))
         both = sides_of(claim.text, names)
         name, formula = both if usable(both[0]) else reversed(both)

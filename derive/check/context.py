@@ -1,13 +1,13 @@
 """Collect what is needed to read the equations of a claims file, and substitute their calls.
 
 Context   the body, if there is one, the variables, and the symbols of the source
-Meant     the meanings of these symbols
+Defined   the meaning of one of these symbols
 """
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from sympy import Derivative, Expr, Integer, Integral, Limit, Piecewise, Symbol, expand, true
 from sympy.core.function import AppliedUndef
@@ -34,35 +34,17 @@ from derive.symbols import M, P, e, x
 _CALLS = (AppliedUndef, Derivative, Limit, *IMPROPER)
 
 
-@dataclass(frozen=True)
-class Meant:
-    """The meanings of the symbols of the source.
+class Defined(NamedTuple):
+    """The meaning of a symbol of the source.
 
-    as_written    meanings as in the file, with other symbols substituted and calls kept
-    in_variables  meanings in terms of variables only
-    lacking       for a symbol without a meaning, the name of the first that lacks one of its own
-    wrong         the error in the formula of such a symbol, if it has one
-    uses          for each symbol, the names of all symbols that its definition uses
+    written       as in the file, with other symbols substituted and calls kept
+    in_variables  in terms of variables only
+    uses          the names of all symbols and variables in the definition
     """
 
-    as_written: dict[Symbol, Expr] = field(default_factory=dict)
-    in_variables: dict[Symbol, Expr] = field(default_factory=dict)
-    lacking: dict[str, str] = field(default_factory=dict)
-    wrong: dict[str, UserError] = field(default_factory=dict)
-    uses: dict[str, set[str]] = field(default_factory=dict)
-
-    def without(self, names: Collection[str]) -> "Meant":
-        """Return the meanings of all but some symbols."""
-        as_written, in_variables = (
-            {symbol: expr for symbol, expr in table.items() if symbol.name not in names}
-            for table in (self.as_written, self.in_variables)
-        )
-        uses = {name: used for name, used in self.uses.items() if name not in names}
-        return Meant(as_written, in_variables, uses=uses)
-
-    def with_users(self, names: Collection[str]) -> set[str]:
-        """Return the names of some symbols and of all that use them."""
-        return {*names, *(n for n, used in self.uses.items() if not used.isdisjoint(names))}
+    written: Expr
+    in_variables: Expr
+    uses: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -73,13 +55,18 @@ class Context:
     body     the body whose formulas may be called, or None
     symbols  the formula of each symbol of the source as text; empty if it has none
     unknown  the symbols that stand for positive variables here
+    defined  the symbols with a meaning
+    lacking  for each other symbol, the name of the first that lacks a meaning of its own
+    wrong    the error in the formula of such a symbol, if it has one
     """
 
     file: Declarations
     body: ProvenBody | None
     symbols: Mapping[str, str]
     unknown: tuple[str, ...] = ()
-    meant: Meant = field(default_factory=Meant)
+    defined: dict[str, Defined] = field(default_factory=dict)
+    lacking: dict[str, str] = field(default_factory=dict)
+    wrong: dict[str, UserError] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for name in self.symbols:
@@ -101,6 +88,16 @@ class Context:
         unknown = {name: Symbol(name, positive=True) for name in self.unknown}
         return {**self.file.variables_with(self.body), **unknown}
 
+    @property
+    def meaning(self) -> dict[Symbol, Expr]:
+        """The meanings of the symbols in terms of variables only."""
+        return {Symbol(name): known.in_variables for name, known in self.defined.items()}
+
+    @property
+    def written(self) -> dict[Symbol, Expr]:
+        """The meanings of the symbols with the calls kept."""
+        return {Symbol(name): known.written for name, known in self.defined.items()}
+
     def names(self, place: Place, symbols: Iterable[str] | None = None) -> Names:
         """Return the names that an equation may hold: symbols, by default all, and variables."""
         chosen = self.symbols if symbols is None else symbols
@@ -110,6 +107,25 @@ class Context:
             str(place), {**self.variables, **{n: Symbol(n) for n in chosen}}, arities, meant
         )
 
+    def replaced(
+        self, formulas: Mapping[str, str], only_here: Collection[str] = (), is_open: bool = False
+    ) -> "Context":
+        """Return the context with other formulas of symbols.
+
+        only_here  names whose other formulas are not used by other symbols
+        is_open    whether symbols without a meaning are positive variables
+        """
+        inner = formulas.keys() - {*only_here}
+        kept = {
+            name: known
+            for name, known in self.defined.items()
+            if name not in formulas and known.uses.isdisjoint(inner)
+        }
+        symbols = {**self.symbols, **formulas}
+        unknown = tuple(name for name, text in symbols.items() if is_open and not text)
+        symbols = {name: text for name, text in symbols.items() if name not in unknown}
+        return Context(self.file, self.body, symbols, unknown, kept)
+
     # -------------------------------------------------------------- meanings
 
     def _define(self, name: str, outer: tuple[str, ...] = ()) -> str:
@@ -117,60 +133,60 @@ class Context:
 
         Return the name of the symbol that lacks a meaning, or an empty text if none does.
         """
-        symbol, meant, text = Symbol(name), self.meant, self.symbols[name]
-        if symbol in meant.in_variables:
-            return ""
-        if not text or name in meant.lacking:
-            return meant.lacking.setdefault(name, name)
-        place = self.file.place.at("symbols", name, f"symbols: {name}")
+        if name not in self.defined and name not in self.lacking:
+            try:
+                lacking = self._read(name, outer)
+            except UserError as error:
+                self.wrong[name], lacking = error, name
+            if lacking:
+                self.lacking.setdefault(name, lacking)
+        return self.lacking.get(name, "")
+
+    def _read(self, name: str, outer: tuple[str, ...]) -> str:
+        if not (text := self.symbols[name]):
+            return name
+        place, seconds = self.file.place.at("symbols", name, f"symbols: {name}"), self.file.seconds
         if name in outer:
             why = f"it has a circular definition through {', '.join(outer[outer.index(name) :])}"
-            meant.wrong[name] = place.bad(why, "define one of these symbols without the others")
-            return name
+            raise place.bad(why, "define one of these symbols without the others")
         others = {Symbol(other) for other in self.symbols if other != name}
         names = self.names(place, [other.name for other in others])
-        seconds = self.file.seconds
-        try:
-            found = limited(seconds, place, lambda: formula(text, names))
-            for inner in sorted(free(found) & others, key=str):
-                if lacking := self._define(inner.name, (*outer, name)):
-                    return meant.lacking.setdefault(name, lacking)
-            found = with_real_bound(found, others - meant.in_variables.keys())
-            written = found.xreplace(meant.as_written)
-            in_variables = limited(seconds, place, lambda: self.substitute(written))
-        except UserError as error:
-            meant.wrong[name] = error
-            return meant.lacking.setdefault(name, name)
-        used = {each.name for each in found.free_symbols}
-        meant.uses[name] = used.union(*(meant.uses.get(each, ()) for each in used))
-        meant.as_written[symbol], meant.in_variables[symbol] = written, in_variables
+        found = limited(seconds, place, lambda: formula(text, names))
+        for inner in sorted(free(found) & others, key=str):
+            if lacking := self._define(inner.name, (*outer, name)):
+                return lacking
+        found = with_real_bound(found, others - self.meaning.keys())
+        written = found.xreplace(self.written)
+        in_variables = limited(seconds, place, lambda: self.substitute(written))
+        uses = self.used(each.name for each in found.free_symbols)
+        self.defined[name] = Defined(written, in_variables, uses)
         return ""
+
+    def used(self, names: Iterable[str]) -> frozenset[str]:
+        """Return names, and those that their definitions use."""
+        names = frozenset(names)
+        return names.union(*(self.defined[name].uses for name in names & self.defined.keys()))
 
     def lack(self, names: Iterable[str]) -> str:
         """Say that symbols have no meaning, and why, or what the user can do."""
-        lacking = [*dict.fromkeys(self.meant.lacking.get(name, name) for name in names)]
-        if wrong := next((name for name in lacking if name in self.meant.wrong), ""):
-            error = self.meant.wrong[wrong]
-            return f"the symbol {wrong} has no meaning in this claim: {reason(error)}"
+        lacking = [*dict.fromkeys(self.lacking.get(name, name) for name in names)]
+        if wrong := next((name for name in lacking if name in self.wrong), ""):
+            return f"the symbol {wrong} has no meaning in this claim: {reason(self.wrong[wrong])}"
         have, them = ("symbols {} have", "them") if len(lacking) > 1 else ("symbol {} has", "it")
         told = f"the {have.format(', '.join(lacking))} no meaning"
         why = self.file.paper.reasons(lacking)
         return f"{told}: define {them} in [symbols] or [variables]{why}"
 
-    def replaced(self, formulas: Mapping[str, str]) -> "Context":
-        """Return the context in which equations, but not other symbols, use other formulas."""
-        symbols = {**self.symbols, **formulas}
-        return replace(self, symbols=symbols, meant=self.meant.without(formulas))
-
     def definitions(self, *exprs: Expr) -> tuple[dict[str, str], dict[str, str]]:
         """Return the formulas, and the words, of names in expressions and of those they use."""
-        names = {each.name for each in free(*exprs)}
-        names = names.union(*(self.meant.uses.get(name, ()) for name in names))
+        names = self.used(each.name for each in free(*exprs))
         symbols, words = (
             {name: table[name] for name in table if name in names}
             for table in (self.symbols, self.file.words)
         )
         return symbols, words
+
+    # -------------------------------------------------------------- calls
 
     def _called(self, call: Expr) -> tuple[Formula, dict[Symbol, Expr]]:
         """Return the formula that is called, and what stands for each of its symbols."""
@@ -201,7 +217,7 @@ class Context:
 
     def in_variables(self, expr: Any) -> Any:
         """Replace the symbols of the source, and the calls, by their meanings."""
-        return self.substitute(expr.xreplace(self.meant.in_variables))
+        return self.substitute(expr.xreplace(self.meaning))
 
     def conditions(self, expr: Expr) -> Iterator[Boolean]:
         """Yield the conditions under which the formulas called in an expression are defined.
@@ -243,7 +259,7 @@ class Context:
         units = self.file.units_with(self.body)
         unknown = {self.variables[name]: units.get(Symbol(name)) for name in self.unknown}
         units |= {symbol: unit for symbol, unit in unknown.items() if unit is not None}
-        return Units(units, self.meant.as_written, calls)
+        return Units(units, self.written, calls)
 
     def mismatch(self, text: str, place: Place) -> str:
         """Describe the units that do not fit in an equation, whether it is judged or not."""

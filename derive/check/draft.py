@@ -11,12 +11,14 @@ from pathlib import Path
 from typing import Any
 
 import tomlkit
+from msgspec import to_builtins
 from sympy import Symbol
 from tomlkit.items import Item
 
 from derive.check.declarations import PLACES
 from derive.check.meanings import NONE, Standard
 from derive.check.mistakes import reason
+from derive.check.schema import Answers
 from derive.command.errors import BadClaimsFile, BadFormula
 from derive.command.limit import LimitReached, within
 from derive.reading.displays import LABEL, Display, displays
@@ -52,16 +54,9 @@ _HEAD = """{title}
 {symbols}
 [latex]
 {latex}{unread}"""
-_EXAMPLE: dict[str, Any] = {
-    "symmetric": True,
-    "modulus": "E_star",
-    "letters": {"m": "b", "f": r"\mu"},
-}
+_EXAMPLE = Answers(symmetric=True, letters={"m": "b", "f": r"\mu"})
 """The table [paper] that stands in the draft as a comment until the user answers."""
 _DEFINES = (":=", r"\equiv", r"\coloneqq", r"\triangleq")
-
-Answers = tuple[str, dict[str, Any]] | tuple[()]
-"""The body and the table [paper]; empty if the user has not answered."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +65,7 @@ class Draft:
 
     environments  the number of displays in the file
     claims        the entries of each claim in the file
+    unread        the entries `unchecked` of claims, each with its place in the paper
     meant         the standard formulas of the paper's symbols
     open          the symbols without a meaning, each with its definition in the paper and its place
     text          the text of the claims file
@@ -77,14 +73,10 @@ class Draft:
 
     environments: int
     claims: list[dict[str, Any]]
+    unread: list[str]
     meant: dict[str, str]
     open: dict[str, dict[str, str]]
     text: str
-
-    @property
-    def unread(self) -> list[str]:
-        """The entries `unchecked` of claims, each with its place in the paper."""
-        return _unread(self.claims)
 
     @property
     def understood(self) -> int:
@@ -92,13 +84,11 @@ class Draft:
         return sum("understood" in each for each in self.claims)
 
 
-def draft_claims(
-    path: Path, inline: bool = False, answers: Answers = (), standard: Standard = NONE
-) -> Draft:
+def draft_claims(path: Path, inline: bool = False, standard: Standard = NONE) -> Draft:
     """Read a LaTeX file; raise BadClaimsFile if its displays cannot be found.
 
     inline: whether the relations in the text are read as well
-    answers, standard: the user's answers, and the meanings that follow from them
+    standard: the meanings that follow from the user's answers
     """
     source = displays(path, inline)
     if not source.found:
@@ -134,28 +124,24 @@ def draft_claims(
     spelled = {own: name for own, name in spelled.items() if name not in bound}
     meant = {n: entry.text for n, entry in standard.of({*spelled.values()}).items()}
     left = {n: defined.get(n, {}) for n in spelled.values() if n not in known | meant.keys()}
-    unread = _unread(claims)
+    unread = [f"{each['place']}: {each['unchecked']}" for each in claims if "unchecked" in each]
     told = ("These statements were not read, or not completely:", *unread) if unread else ()
     head = _HEAD.format(
         title=_toml({"title": source.title or path.name}),
-        answers=_answered(answers),
+        answers=_answered(standard),
         symbols=_toml({name: said or "" for name, said in left.items()}),
         latex=_toml(spelled),
         unread="".join(f"# {line}\n" for line in told),
     )
     text = "".join((head, *(f"\n[[claims]]\n{_toml(each)}" for each in claims)))
-    return Draft(source.environments, claims, meant, left, text)
+    return Draft(source.environments, claims, unread, meant, left, text)
 
 
-def _answered(answers: Answers) -> str:
+def _answered(standard: Standard) -> str:
     """The answers of the user as lines of the file, or an example as a comment."""
-    body, paper = answers or ("hertz", _EXAMPLE)
-    lines = f"{_toml({'body': body})}[paper]\n{_toml(paper)}"
-    return lines if answers else re.sub(r"^", "# ", lines.rstrip(), flags=re.MULTILINE) + "\n"
-
-
-def _unread(claims: list[dict[str, Any]]) -> list[str]:
-    return [f"{each['place']}: {each['unchecked']}" for each in claims if "unchecked" in each]
+    answers = to_builtins(standard.answers or _EXAMPLE)
+    lines = f"{_toml({'body': standard.body})}[paper]\n{_toml(answers)}"
+    return lines if standard.answers else re.sub("(?m)^(?=.)", "# ", lines)
 
 
 def _bound(claims: list[dict[str, Any]], printed: Collection[str]) -> set[str]:

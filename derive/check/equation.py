@@ -52,7 +52,7 @@ class Equation:
         entry, context = self.entry, self.context
         left, right = self._without_calls(self.left), self._without_calls(self.right)
         compared = tuple(map(self._without_calls, self.through)) or (left, right)
-        meaning = self._called(context.meant.in_variables)
+        meaning = self._called(context.meaning)
         self._demand_bound(left, right, meaning)
         held = _variables(compared, meaning)
         self._demand_one_parameter(held)
@@ -95,7 +95,7 @@ class Equation:
     def _names(self, key: str = "") -> Names:
         """Return the names that an entry may hold: those with a meaning."""
         place = self.place.inside(key) if key else self.place
-        return self.context.names(place, [s.name for s in self.context.meant.in_variables])
+        return self.context.names(place, [s.name for s in self.context.meaning])
 
     def _symbol(self, key: str, name: str, known: Mapping[str, Expr]) -> Symbol:
         """Return the symbol of a name in an entry."""
@@ -108,7 +108,7 @@ class Equation:
     @cached_property
     def _called_sides(self) -> tuple[Expr, ...]:
         """The sides to compare in our variables, with the body's formulas as functions."""
-        written = self.context.meant.as_written
+        written = self.context.written
         sides = [side.xreplace({self.left: self.right}) for side in self.through]
         return tuple(side.xreplace(written) for side in sides or (self.left, self.right))
 
@@ -119,7 +119,7 @@ class Equation:
             return Basis.GIVEN
         if any(side.has(AppliedUndef) for side in self._called_sides):
             return Basis.BOTH if self._own_parameters else Basis.BODY
-        used = free(self.left, self.right, *self.through) & self.context.meant.as_written.keys()
+        used = free(self.left, self.right, *self.through) & self.context.written.keys()
         return Basis.DEFINITIONS if used else Basis.MATHEMATICS
 
     # -------------------------------------------------------------- calls
@@ -147,8 +147,8 @@ class Equation:
 
     def _changed(self, symbols: Mapping[str, Formula]) -> Meaning:
         """Return the meanings that change if some symbols of the claim are redefined."""
-        other = self.redefined(symbols).meant.in_variables
-        known, calls = self.context.meant.in_variables, set(self._calls.values())
+        other = self.redefined(symbols).meaning
+        known, calls = self.context.meaning, set(self._calls.values())
         return {s: e for s, e in self._called(other).items() if s in calls or known.get(s) != e}
 
     # -------------------------------------------------------------- entries beside the equation
@@ -172,9 +172,9 @@ class Equation:
 
     def _conditions(self, held: set[Symbol]) -> tuple[Boolean, ...]:
         """Return the conditions of the formulas that are called, and those of the claim."""
-        found, bound, meant = set[Boolean](), set[Symbol](), self.context.meant
+        found, bound, meaning = set[Boolean](), set[Symbol](), self.context.meaning
         for side in (self.left, self.right):
-            written = side.xreplace(meant.as_written)
+            written = side.xreplace(self.context.written)
             found |= set(self.context.conditions(written))
             bound |= {over.limits[-1][0] for over in integrals(written)}
             bound |= {each.args[1] for each in written.atoms(Limit)}
@@ -183,9 +183,9 @@ class Equation:
             why = f"require: {text!r} is an equation and not a condition"
             remedy = "use `symbols` or `ranges` for a value, or write <, <=, > or >="
             self.place.demand(not re.search("(?<![<>=!])=(?!=)", text), why, remedy)
-            found.add(condition(text, names).xreplace(meant.in_variables))
+            found.add(condition(text, names).xreplace(meaning))
         for text in self.declared.paper.conditions:
-            inside = condition(text, names).xreplace(meant.in_variables)
+            inside = condition(text, names).xreplace(meaning)
             found |= {inside} if inside.free_symbols <= held else set()
         remedy = "correct `require`, or the arguments of the formulas that are called"
         self.place.demand(false not in found, "its conditions are never satisfied", remedy)
@@ -217,7 +217,7 @@ class Equation:
 
     def _swaps(self, named: set[Symbol]) -> tuple[Symbol, ...]:
         """Return the names that may have been confused, by default all names in the equation."""
-        defined = self.context.meant.in_variables.keys()
+        defined = self.context.meaning.keys()
         if self.entry.swaps is None:
             return (*(s for s in defined if s in named), *sorted(named - defined, key=str))
         known = {**self.context.variables, **{s.name: s for s in defined}}
@@ -247,12 +247,10 @@ class Equation:
     @property
     def _own_parameters(self) -> dict[str, Expr]:
         """Parameters of the body that the equation uses with a meaning of its own."""
-        meant = self.context.meant
-        used = {symbol.name for symbol in free(self.left, self.right)}
-        used = used.union(*(meant.uses.get(name, ()) for name in used))
-        known = used & {each.name for each in self.context.own.values()}
-        table = {name: meant.in_variables.get(Symbol(name)) for name in sorted(known)}
-        return {name: given for name, given in table.items() if given is not None}
+        context = self.context
+        used = context.used(each.name for each in free(self.left, self.right))
+        known = used & {each.name for each in context.own.values()} & context.defined.keys()
+        return {name: context.defined[name].in_variables for name in sorted(known)}
 
     def _demand_one_parameter(self, held: set[Symbol]) -> None:
         """Reject a meaning for a parameter of the body that formulas of the body also contain."""

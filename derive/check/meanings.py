@@ -115,6 +115,8 @@ class Standard:
     symbols     the other names of the paper
     conditions  what is true of the variables in every claim
     absent      the names that have a standard meaning for other answers, with the reason why not
+    body        the name of the body
+    answers     the other answers; None if there are none
     """
 
     letters: Mapping[str, str]
@@ -122,6 +124,8 @@ class Standard:
     symbols: Mapping[str, DefinedSymbol] = field(default_factory=dict)
     conditions: tuple[str, ...] = ()
     absent: Mapping[str, str] = field(default_factory=dict)
+    body: str = "hertz"
+    answers: Answers | None = None
 
     def reasons(self, names: Iterable[str]) -> str:
         """Say of those names that could have a standard meaning why they have none."""
@@ -183,7 +187,7 @@ def standard(answers: Answers, geometry: Geometry, place: Place) -> Standard:
         for row in sorted(_ROWS, key=lambda row: -len(row.cases - cases))
         if row.letter not in known and (name := _replaced(_PARTS, names, row.pattern)) not in known
     }
-    return Standard(letters, variables, symbols, conditions, absent)
+    return Standard(letters, variables, symbols, conditions, absent, geometry.name, answers)
 
 
 def _because(missing: Collection[str], zone: str, modulus: str) -> str:

@@ -191,8 +191,8 @@ class Answers(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """The table [paper]: what the letters of a paper mean; its letters by ours."""
 
     symmetric: bool
-    letters: dict[str, Text] = {}
     modulus: str = "E_star"
+    letters: dict[str, Text] = {}
 
     def __post_init__(self) -> None:
         """Refuse an unknown modulus."""

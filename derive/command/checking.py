@@ -31,9 +31,9 @@ def write_draft(file: Path | None, new: Path, inline: bool) -> None:
     if file is None:
         raise click.UsageError("--draft reads a paper: give FILE, in LaTeX")
     demand_page(new, "--draft", mark=None)
-    answers, meanings = _answers()
+    meanings = _answers()
     with status("reading the displayed equations"):
-        made = draft_claims(file, inline, answers, meanings)
+        made = draft_claims(file, inline, meanings)
     put_page(made.text, new, "--draft", mark=None)
     click.echo(f"{made.environments} displayed equations with {len(made.claims)} statements")
     click.echo(f"Wrote {path_of(new.absolute())}: {made.understood} statements read")
@@ -44,7 +44,7 @@ def write_draft(file: Path | None, new: Path, inline: bool) -> None:
     click.echo(f"{len(meant)} symbols with a standard meaning, {len(left)} without")
     if proposed:
         click.echo(f"{proposed} of them with a definition in the paper, to be accepted by you")
-    if not answers:
+    if not meanings.answers:
         click.echo(f"Next, answer the four questions at the top of {path_of(new.absolute())}")
     elif left:
         why = meanings.reasons(left)
@@ -53,7 +53,7 @@ def write_draft(file: Path | None, new: Path, inline: bool) -> None:
         click.echo(f"not read: {line}")
 
 
-def _answers() -> tuple[tuple[str, dict[str, Any]] | tuple[()], Standard]:
+def _answers() -> Standard:
     """Ask what the paper's letters mean; no answers if the user does not say."""
 
     def meanings(letters: str) -> Standard:
@@ -71,7 +71,7 @@ def _answers() -> tuple[tuple[str, dict[str, Any]] | tuple[()], Standard]:
         asked = f"1. Body, or none to fill in the file by hand ({', '.join(bodies)})"
         body = _answer(asked, click.Choice(bodies), "none")
         if body == "none":
-            return (), NONE
+            return NONE
         paper: dict[str, Any] = {"symmetric": _answer("2. Symmetric contact? (y, n)", click.BOOL)}
         asked = f"3. Elastic constants ({'; '.join(MODULI)})"
         paper["modulus"] = _answer(asked, click.Choice(MODULI), "E_star")
@@ -83,8 +83,8 @@ def _answers() -> tuple[tuple[str, dict[str, Any]] | tuple[()], Standard]:
         asked = r"4. Letters of the paper that differ, such as m = b, f = \mu"
         chosen = _answer(asked, meanings, "")
     except click.Abort:
-        return (), NONE
-    return (body, paper), chosen
+        return NONE
+    return chosen
 
 
 def _told(ours: Standard) -> list[str]:
