@@ -87,13 +87,11 @@ class AsMeant:
     through      two expressions that must agree when the symbol `left` is replaced by `right`;
                  used for a definition, which cannot be wrong by itself
     toward       for a claim about a limit, the expression in our variables and its end
-    order        for such a claim, the order of the difference; None if the ratio tends to 1
     conventions  sign conventions that are tried if the claim is not true as printed, each with the
                  entries that replace those of the meaning
     ranges       ranges of our variables; the others are positive and have the range SCALE
     conditions   conditions, in our variables, that every point must satisfy
     cases        the points to use, with numbers as text, if more would take too long
-    family       claims of one family share their points, so that integrals are computed once
     basis        what the verdict rests on, unless the body's formulas turn out not to matter
     called       the sides to compare, in our variables, with the body's formulas as functions
     given        the claims that are taken as true
@@ -110,12 +108,10 @@ class AsMeant:
     reached: tuple[Meaning, Meaning] | None = None
     through: tuple[Expr, Expr] | None = None
     toward: tuple[Expr, Expr] | None = None
-    order: float | None = None
     conventions: tuple[tuple[Reinterpretation, Meaning], ...] = ()
     ranges: Mapping[Symbol, Range] = field(default_factory=dict)
     conditions: tuple[Boolean, ...] = ()
     cases: tuple[Mapping[Symbol, str], ...] = ()
-    family: str = ""
     basis: Basis = Basis.MATHEMATICS
     called: tuple[Expr, ...] = ()
     given: tuple["Claim", ...] = ()

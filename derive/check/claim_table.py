@@ -92,7 +92,9 @@ class ClaimReader:
         for name in own:
             demand_name(name, place)
         if body not in self._contexts:
-            self._contexts[body] = Context(self.declared, body, self.declared.symbols)
+            self._contexts[body] = Context(
+                self.declared, body, self.declared.symbols, self.declared.variables_with(body)
+            )
         texts = {name: str(formula).strip() for name, formula in own.items()}
         return self._contexts[body].replaced(texts) if own else self._contexts[body]
 
@@ -120,13 +122,13 @@ class ClaimReader:
             if claim.to_accept:
                 return _unjudged(claim, context, names, claim.unchecked)
             left, relation, right = equation(claim.text, names, _may_be_rough(entry, claim.text))
+            if entry.given is not None:
+                context = self._redefined(entry, place, {})
+                names = context.names(place)
+                left, relation, right = equation(claim.text, names, rough=True)
         except UnknownName as error:
             lacking = unknown(error.given, names) or ["oo"]
             return replace(claim, unchecked=context.lack(lacking))
-        if entry.given is not None:
-            context = self._redefined(entry, place, {})
-            names = context.names(place)
-            left, relation, right = equation(claim.text, names, _may_be_rough(entry, claim.text))
         undefined = {Symbol(name) for name in context.symbols} - context.meaning.keys()
         left, right = (with_real_bound(side, undefined) for side in (left, right))
         both = sides_of(claim.text, names)
@@ -138,23 +140,17 @@ class ClaimReader:
         sides = [side.xreplace({left: right}) for side in through] or [left, right]
         if lacking := [n for n in context.symbols if Symbol(n) in free(*sides) & undefined]:
             return _unjudged(claim, context, names, context.lack(lacking))
-        stated = Equation(
-            self.declared,
-            entry,
-            place,
-            context,
-            partial(self._redefined, entry, place),
-            claim.text,
-            left,
-            relation,
-            right,
-            through,
-            tuple(self._made[label] for label in entry.given or ()),
-        )
+        redefined = partial(self._redefined, entry, place)
+        stated = Equation(claim, place, context, redefined, left, relation, right, through)
         symbols, words = context.definitions(left, right, *through)
-        made = replace(claim, meant=stated.meant(), symbols=symbols, words=words)
-        made = replace(made, against=stated.against())
-        return made.changed(alone=self._alone(claim, place, own)) if entry.given else made
+        file, sheet = f"the formulas of {Path(place.file).name}", context.sheet
+        named = f"{file} and the formula sheet of {sheet.geometry.name}" if sheet else file
+        against = entry.against or named
+        made = replace(claim, meant=stated.meant(), symbols=symbols, words=words, against=against)
+        if not entry.given:
+            return made
+        given = tuple(self._made[label] for label in entry.given)
+        return made.changed(given=given, alone=self._alone(claim, place, own))
 
     def _alone(self, claim: Claim, place: Place, context: Context) -> Claim | None:
         """Return the claim without those given, if it can be judged by the file's own meanings."""

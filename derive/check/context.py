@@ -51,19 +51,19 @@ class Defined(NamedTuple):
 class Context:
     """What the equations of a claim may refer to.
 
-    file     what the file declares
-    body     the body whose formulas may be called, or None
-    symbols  the formula of each symbol of the source as text; empty if it has none
-    unknown  the symbols that stand for positive variables here
-    defined  the symbols with a meaning
-    lacking  for each other symbol, the name of the first that lacks a meaning of its own
-    wrong    the error in the formula of such a symbol, if it has one
+    file       what the file declares
+    body       the body whose formulas may be called, or None
+    symbols    the formula of each symbol of the source as text; empty if it has none
+    variables  the variables by name
+    defined    the symbols with a meaning
+    lacking    for each other symbol, the name of the first that lacks a meaning of its own
+    wrong      the error in the formula of such a symbol, if it has one
     """
 
     file: Declarations
     body: ProvenBody | None
     symbols: Mapping[str, str]
-    unknown: tuple[str, ...] = ()
+    variables: Mapping[str, Expr]
     defined: dict[str, Defined] = field(default_factory=dict)
     lacking: dict[str, str] = field(default_factory=dict)
     wrong: dict[str, UserError] = field(default_factory=dict)
@@ -81,12 +81,6 @@ class Context:
     def own(self) -> dict[Symbol, Symbol]:
         """The symbols of the body's formulas, each with the paper's symbol for it."""
         return self.file.letters_of(self.body)
-
-    @cached_property
-    def variables(self) -> dict[str, Expr]:
-        """The variables by name."""
-        unknown = {name: Symbol(name, positive=True) for name in self.unknown}
-        return {**self.file.variables_with(self.body), **unknown}
 
     @property
     def meaning(self) -> dict[Symbol, Expr]:
@@ -121,10 +115,10 @@ class Context:
             for name, known in self.defined.items()
             if name not in formulas and known.uses.isdisjoint(inner)
         }
-        symbols = {**self.symbols, **formulas}
-        unknown = tuple(name for name, text in symbols.items() if is_open and not text)
-        symbols = {name: text for name, text in symbols.items() if name not in unknown}
-        return Context(self.file, self.body, symbols, unknown, kept)
+        symbols, variables = {**self.symbols, **formulas}, dict(self.variables)
+        for name in [name for name, text in symbols.items() if is_open and not text]:
+            variables[name] = Symbol(symbols.pop(name) or name, positive=True)
+        return Context(self.file, self.body, symbols, variables, kept)
 
     # -------------------------------------------------------------- meanings
 
@@ -257,8 +251,8 @@ class Context:
         for name, known in (self.sheet or {}).items():
             calls[name] = tuple(own[each] for each in known.arguments), parse_unit(known.unit)
         units = self.file.units_with(self.body)
-        unknown = {self.variables[name]: units.get(Symbol(name)) for name in self.unknown}
-        units |= {symbol: unit for symbol, unit in unknown.items() if unit is not None}
+        named = {Symbol(name): variable for name, variable in self.variables.items()}
+        units |= {named[symbol]: unit for symbol, unit in units.items() if symbol in named}
         return Units(units, self.written, calls)
 
     def mismatch(self, text: str, place: Place) -> str:

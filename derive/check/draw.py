@@ -165,7 +165,7 @@ def further(claim: Claim, exprs: Sequence[Expr]) -> Iterator[Point]:
         drawn.near_ends(numbers),
         past,
     ]
-    if not (few and claim.meant.family):
+    if not (few and claim.entry.family):
         found = {switch for expr in exprs for switch in switches(expr) if not switch.of.is_nonzero}
         kinks = [switch.of for switch in found if switch.kind == "kink"]
         peaks = [inner for expr in exprs for inner in peaked(expr)]
@@ -211,7 +211,7 @@ class _Drawn:
 
     def __init__(self, claim: Claim, seed: str) -> None:
         digest = hashlib.sha256(
-            f"{claim.meant.family or claim.entry.label}{seed}".encode()
+            f"{claim.entry.family or claim.entry.label}{seed}".encode()
         ).digest()
         self.rng = random.Random(int.from_bytes(digest[:8], "big"))
         self.symbols = variables(claim)

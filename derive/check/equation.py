@@ -8,7 +8,6 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 from sympy import Expr, Integral, Limit, Rational, Symbol, false, true
@@ -24,7 +23,7 @@ from derive.check.context import (
     free,
     integrals,
 )
-from derive.check.declarations import PLACES, Declarations
+from derive.check.declarations import PLACES
 from derive.check.schema import Entry, Formula, Place
 from derive.reading.formula import Names, approach, condition, equation, rounded_in
 from derive.reading.improper import IMPROPER
@@ -35,17 +34,19 @@ from derive.reading.relation import Relation
 class Equation:
     """The equation of a claim, as it was read; `through` is empty or has two sides."""
 
-    declared: Declarations
-    entry: Entry
+    claim: Claim
     place: Place
     context: Context
     redefined: Callable[[Mapping[str, Any]], Context]
-    text: str
     left: Expr
     relation: Relation
     right: Expr
     through: tuple[Expr, ...]
-    given: tuple[Claim, ...]
+
+    @property
+    def entry(self) -> Entry:
+        """What the file says of the claim."""
+        return self.claim.entry
 
     def meant(self) -> AsMeant:
         """Return the comparison that the equation stands for."""
@@ -60,7 +61,7 @@ class Equation:
         changed = [expr for entries in reached or () for expr in entries.values()]
         held = held.union(*(each.free_symbols for each in (*conditions, *changed)))
         places = {place: SIGNED for place in PLACES.values()}
-        ranges = {**places, **self.declared.ranges, **self._ranges()}
+        ranges = {**places, **context.file.ranges, **self._ranges()}
         named = _names_in(self.left, self.right, *self._approached)
         calls = {symbol: call for call, symbol in self._calls.items()}
         is_equal = self.relation == Relation.LIKE and not (entry.approach or entry.leading)
@@ -72,25 +73,16 @@ class Equation:
             reached=reached,
             through=(compared[0], compared[1]) if self.through else None,
             toward=self._toward(),
-            order=entry.order,
             conventions=tuple((e, self._changed(e.symbols)) for e in entry.conventions),
             ranges={symbol: span for symbol, span in ranges.items() if symbol in held},
             conditions=conditions,
             cases=self._cases(held),
-            family=entry.family,
             basis=self._basis,
             called=self._called_sides,
-            given=self.given,
-            rounded=_rounded(self.text, self._names()),
+            rounded=_rounded(self.claim.text, self._names()),
             swaps=self._swaps(named),
             unit_of=context.units_of({**{s: s for s in named | held}, **calls}),
         )
-
-    def against(self) -> str:
-        """Describe what the claim is compared with."""
-        sheet = self.context.sheet
-        told = f" and the formula sheet of {sheet.geometry.name}" if sheet else ""
-        return self.entry.against or f"the formulas of {Path(self.place.file).name}{told}"
 
     def _names(self, key: str = "") -> Names:
         """Return the names that an entry may hold: those with a meaning."""
@@ -115,7 +107,7 @@ class Equation:
     @property
     def _basis(self) -> Basis:
         """What the verdict rests on if it rests on everything that takes part."""
-        if self.given:
+        if self.entry.given:
             return Basis.GIVEN
         if any(side.has(AppliedUndef) for side in self._called_sides):
             return Basis.BOTH if self._own_parameters else Basis.BODY
@@ -184,7 +176,7 @@ class Equation:
             remedy = "use `symbols` or `ranges` for a value, or write <, <=, > or >="
             self.place.demand(not re.search("(?<![<>=!])=(?!=)", text), why, remedy)
             found.add(condition(text, names).xreplace(meaning))
-        for text in self.declared.paper.conditions:
+        for text in self.context.file.paper.conditions:
             inside = condition(text, names).xreplace(meaning)
             found |= {inside} if inside.free_symbols <= held else set()
         remedy = "correct `require`, or the arguments of the formulas that are called"

@@ -106,7 +106,7 @@ class Approach:
         sides = Sides.printed(claim).in_variables
         decades = _DECADES if all(map(_is_quick, (expr, *sides))) else _WITH_INTEGRALS
         self.steps = [mpf(10) ** -each for each in decades]
-        self.digits = _DIGITS + ceil(decades[-1] * max(2, (claim.meant.order or 0) + 1))
+        self.digits = _DIGITS + ceil(decades[-1] * max(2, (claim.entry.order or 0) + 1))
         self.gap = 1 / expr if self.end in (oo, -oo) else expr - self.end
         self.variables = sorted(self.gap.free_symbols, key=in_order)
 
@@ -236,12 +236,12 @@ class Approach:
     def _of(self, left: list[Value], right: list[Value], gaps: list[Value]) -> tuple[Verdict, str]:
         """Return the verdict for one point from which the limit is approached."""
         pairs = list(zip(left, right, strict=True))
-        if self.claim.meant.order is not None:
+        if self.claim.entry.order is not None:
             least = mpf(10) ** (_DIGITS // 2 - self.digits)  # smaller differences are rounding
             change = [one - other for one, other in pairs]
             for n, (one, _) in enumerate(pairs):
                 change[n] *= abs(change[n]) > least * abs(one)
-            return _by_order(change, gaps, mpf(self.claim.meant.order))
+            return _by_order(change, gaps, mpf(self.claim.entry.order))
         if 0 in right:
             return Verdict.UNCHECKED, "the right side vanishes on the way to the limit"
         return _by_ratio([one / other for one, other in pairs], gaps)
