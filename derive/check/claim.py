@@ -195,11 +195,6 @@ class Claim:
         has_number = entry.equation or re.match(r"[A-Za-z]+:\S", entry.label)
         return entry.place if has_number and entry.place else entry.label
 
-    @property
-    def consequences(self) -> list[str]:
-        """The consequence, one statement in each line."""
-        return self.entry.consequence.split("; ") if self.entry.consequence else []
-
     def is_called(self, given: str) -> bool:
         """Whether a user may mean this claim: by its label, name, place or equation number."""
         number, place = self.entry.equation, self.entry.place
@@ -219,10 +214,6 @@ class Paper:
     title: str
     claims: tuple[Claim, ...]
     signs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        labels = [claim.entry.label for claim in self.claims]
-        assert len(labels) == len(set(labels)), "two claims have the same label"
 
     def __getitem__(self, label: str) -> Claim:
         return next(claim for claim in self.claims if claim.entry.label == label)

@@ -141,12 +141,13 @@ class ClaimReader:
         if lacking := [n for n in context.symbols if Symbol(n) in free(*sides) & undefined]:
             return _unjudged(claim, context, names, context.lack(lacking))
         redefined = partial(self._redefined, entry, place)
-        stated = Equation(claim, place, context, redefined, left, relation, right, through)
-        symbols, words = context.definitions(left, right, *through)
+        read = left, relation, right, through
+        stated = Equation(entry, claim.text, place, context, redefined, *read)
+        made = context.described(claim, left, right, *through)
         file, sheet = f"the formulas of {Path(place.file).name}", context.sheet
         named = f"{file} and the formula sheet of {sheet.geometry.name}" if sheet else file
         against = entry.against or named
-        made = replace(claim, meant=stated.meant(), symbols=symbols, words=words, against=against)
+        made = replace(made, meant=stated.meant(), against=against)
         if not entry.given:
             return made
         given = tuple(self._made[label] for label in entry.given)
@@ -176,8 +177,7 @@ def _unjudged(claim: Claim, context: Context, names: Names, why: str) -> Claim:
         left, relation, right = equation(claim.text, names, rough=True)
         calls = {call: Symbol(as_text(call)) for call in calls_in(left, right)}
         meant = AsMeant(left.xreplace(calls), right.xreplace(calls), relation)
-        symbols, words = context.definitions(left, right)
-        claim = replace(claim, meant=meant, symbols=symbols, words=words)
+        claim = replace(context.described(claim, left, right), meant=meant)
     return replace(claim, unchecked=why)
 
 

@@ -5,7 +5,7 @@ Defined   the meaning of one of these symbols
 """
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
 from derive.check.bodies import ProvenBody, placed
+from derive.check.claim import Claim
 from derive.check.declarations import Declarations
 from derive.check.mistakes import limited, reason
 from derive.check.schema import Place
@@ -171,14 +172,11 @@ class Context:
         why = self.file.paper.reasons(lacking)
         return f"{told}: define {them} in [symbols] or [variables]{why}"
 
-    def definitions(self, *exprs: Expr) -> tuple[dict[str, str], dict[str, str]]:
-        """Return the formulas, and the words, of names in expressions and of those they use."""
-        names = self.used(each.name for each in free(*exprs))
-        symbols, words = (
-            {name: table[name] for name in table if name in names}
-            for table in (self.symbols, self.file.words)
-        )
-        return symbols, words
+    def described(self, claim: Claim, *exprs: Expr) -> Claim:
+        """Return a claim with the formulas, and the words, of names that its equation uses."""
+        names, tables = self.used(s.name for s in free(*exprs)), (self.symbols, self.file.words)
+        symbols, words = ({n: table[n] for n in table if n in names} for table in tables)
+        return replace(claim, symbols=symbols, words=words)
 
     # -------------------------------------------------------------- calls
 
@@ -283,6 +281,12 @@ def integrals(*exprs: Expr) -> list[Integral]:
     return sorted({over for expr in exprs for over in expr.atoms(Integral)}, key=str)
 
 
+def bound(*exprs: Expr) -> set[Symbol]:
+    """Return the variables of integrals and limits, of nested integrals that of the outer one."""
+    inside = {each.args[1] for expr in exprs for each in expr.atoms(Limit)}
+    return inside | {over.limits[-1][0] for over in integrals(*exprs)}
+
+
 def free(*exprs: Expr) -> set[Symbol]:
     """Return the symbols that are not only variables of integration, of a sum or of a limit."""
     return set().union(*(ordinary(expr).free_symbols for expr in exprs))
@@ -290,8 +294,8 @@ def free(*exprs: Expr) -> set[Symbol]:
 
 def with_real_bound(expr: Expr, symbols: Iterable[Symbol]) -> Expr:
     """Make those symbols real that are only variables of integration in an expression."""
-    bound = set(symbols) & expr.atoms(Symbol) - free(expr)
-    return expr.xreplace({symbol: Symbol(symbol.name, real=True) for symbol in bound})
+    inside = set(symbols) & expr.atoms(Symbol) - free(expr)
+    return expr.xreplace({symbol: Symbol(symbol.name, real=True) for symbol in inside})
 
 
 def calls_in(*exprs: Expr) -> list[Expr]:
@@ -299,9 +303,3 @@ def calls_in(*exprs: Expr) -> list[Expr]:
     calls = {call for expr in exprs for call in expr.atoms(*_CALLS)}
     inner = {call for one in calls for call in one.atoms(*_CALLS) - {one}}
     return sorted(calls - inner, key=str)
-
-
-def calls_along(over: Integral) -> list[Expr]:
-    """Return the calls under an integral that depend on the variable of integration."""
-    along = {limit[0] for limit in over.limits}
-    return [call for call in calls_in(over.function) if call.free_symbols & along]

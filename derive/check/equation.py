@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, Integral, Limit, Rational, Symbol, false, true
+from sympy import Expr, Integral, Rational, Symbol, false, true
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
-from derive.check.claim import SIGNED, AsMeant, Basis, Claim, Meaning, Range, Rounded
+from derive.check.claim import SIGNED, AsMeant, Basis, Meaning, Range, Rounded
 from derive.check.context import (
     Context,
     as_text,
-    calls_along,
+    bound,
     calls_in,
     free,
     integrals,
@@ -34,7 +34,8 @@ from derive.reading.relation import Relation
 class Equation:
     """The equation of a claim, as it was read; `through` is empty or has two sides."""
 
-    claim: Claim
+    entry: Entry
+    text: str
     place: Place
     context: Context
     redefined: Callable[[Mapping[str, Any]], Context]
@@ -42,11 +43,6 @@ class Equation:
     relation: Relation
     right: Expr
     through: tuple[Expr, ...]
-
-    @property
-    def entry(self) -> Entry:
-        """What the file says of the claim."""
-        return self.claim.entry
 
     def meant(self) -> AsMeant:
         """Return the comparison that the equation stands for."""
@@ -62,7 +58,9 @@ class Equation:
         held = held.union(*(each.free_symbols for each in (*conditions, *changed)))
         places = {place: SIGNED for place in PLACES.values()}
         ranges = {**places, **context.file.ranges, **self._ranges()}
-        named = _names_in(self.left, self.right, *self._approached)
+        told = (self.left, self.right, *self._approached)
+        inside = {each.args[1] for expr in told for each in expr.atoms(*IMPROPER)} | bound(*told)
+        named = set().union(*(expr.atoms(Symbol) for expr in told)) - inside
         calls = {symbol: call for call, symbol in self._calls.items()}
         is_equal = self.relation == Relation.LIKE and not (entry.approach or entry.leading)
         return AsMeant(
@@ -79,7 +77,7 @@ class Equation:
             cases=self._cases(held),
             basis=self._basis,
             called=self._called_sides,
-            rounded=_rounded(self.claim.text, self._names()),
+            rounded=_rounded(self.text, self._names()),
             swaps=self._swaps(named),
             unit_of=context.units_of({**{s: s for s in named | held}, **calls}),
         )
@@ -132,9 +130,10 @@ class Equation:
     def _without_calls(self, side: Expr) -> Expr:
         """Replace calls by symbols, or by expressions if they depend on an integration variable."""
         for over in integrals(side):
-            table = {call: self.context.in_variables(call) for call in calls_along(over)}
-            inside = Integral(over.function.xreplace(table), *over.limits)
-            side = side.xreplace({over: inside})
+            along = {limit[0] for limit in over.limits}
+            calls = [call for call in calls_in(over.function) if call.free_symbols & along]
+            table = {call: self.context.in_variables(call) for call in calls}
+            side = side.xreplace({over: Integral(over.function.xreplace(table), *over.limits)})
         return side.xreplace(self._calls)
 
     def _changed(self, symbols: Mapping[str, Formula]) -> Meaning:
@@ -164,13 +163,9 @@ class Equation:
 
     def _conditions(self, held: set[Symbol]) -> tuple[Boolean, ...]:
         """Return the conditions of the formulas that are called, and those of the claim."""
-        found, bound, meaning = set[Boolean](), set[Symbol](), self.context.meaning
-        for side in (self.left, self.right):
-            written = side.xreplace(self.context.written)
-            found |= set(self.context.conditions(written))
-            bound |= {over.limits[-1][0] for over in integrals(written)}
-            bound |= {each.args[1] for each in written.atoms(Limit)}
-        names = self._names("require")
+        meaning, names = self.context.meaning, self._names("require")
+        written = [side.xreplace(self.context.written) for side in (self.left, self.right)]
+        found = {each for side in written for each in self.context.conditions(side)}
         for text in self.entry.requirements:
             why = f"require: {text!r} is an equation and not a condition"
             remedy = "use `symbols` or `ranges` for a value, or write <, <=, > or >="
@@ -181,7 +176,7 @@ class Equation:
             found |= {inside} if inside.free_symbols <= held else set()
         remedy = "correct `require`, or the arguments of the formulas that are called"
         self.place.demand(false not in found, "its conditions are never satisfied", remedy)
-        inside = bound - held
+        inside = bound(*written) - held
         kept = [each for each in found if each != true and not each.free_symbols & inside]
         return tuple(sorted(kept, key=str))
 
@@ -227,11 +222,10 @@ class Equation:
     def _demand_bound(self, left: Expr, right: Expr, meaning: Meaning) -> None:
         """Refuse variables of integration, except positions, that are also used outside."""
         meant = (meaning[s] for s in left.free_symbols | right.free_symbols if s in meaning)
-        bound = {over.limits[-1][0] for over in integrals(left, right, *meant)}
-        bound -= set(PLACES.values())
-        table = {s: expr for s, expr in meaning.items() if s not in bound}
+        inside = bound(left, right, *meant) - {*PLACES.values()}
+        table = {s: expr for s, expr in meaning.items() if s not in inside}
         held = left.xreplace(table).free_symbols | right.xreplace(table).free_symbols
-        for along in sorted(bound & (held | meaning.keys()), key=str):
+        for along in sorted(inside & (held | meaning.keys()), key=str):
             why = f"{along} is a variable of integration and also used outside"
             remedy = "integrate over another variable, such as s or xi, in the integrand too"
             raise self.place.bad(why, remedy)
@@ -258,14 +252,7 @@ def _variables(sides: tuple[Expr, ...], meaning: Meaning) -> set[Symbol]:
     symbols = set().union(*(side.free_symbols for side in sides))
     held = set().union(*(meaning.get(symbol, symbol).free_symbols for symbol in symbols))
     outside = set().union(*(side.xreplace(dict(meaning)).free_symbols for side in sides))
-    return held - ({over.limits[-1][0] for over in integrals(*sides)} - outside)
-
-
-def _names_in(*sides: Expr) -> set[Symbol]:
-    """Return the names in an equation, except the variables of integrals and limits."""
-    along = {over.limits[-1][0] for over in integrals(*sides)}
-    along |= {each.args[1] for side in sides for each in side.atoms(Limit, *IMPROPER)}
-    return set().union(*(side.atoms(Symbol) for side in sides)) - along
+    return held - (bound(*sides) - outside)
 
 
 def _rounded(text: str, names: Names) -> Rounded | None:

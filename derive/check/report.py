@@ -108,7 +108,7 @@ def explanation(finding: Finding) -> list[Told]:
         Told("units", [claim.units]),
         Told("convention", [_convention(finding)]),
         Told("search", [*search, in_vain]),
-        Told("consequence", claim.consequences),
+        Told("consequence", entry.consequence.split("; ")),
     ]
     return [each._replace(lines=lines) for each in told if (lines := [*filter(None, each.lines)])]
 
