@@ -42,11 +42,6 @@ class ProvenBody:
         self.sheet: FormulaSheet = derive_sheet(geometry)
         self._known: dict[str, Expr] = {}
 
-    @property
-    def parameters(self) -> dict[str, Expr]:
-        """The parameters of the geometry by name."""
-        return {each.name: each.symbol for each in self.sheet.geometry.parameters}
-
     def formula(self, name: str) -> Expr:
         """Return a formula that is proven symbolically or else to 30 digits; raises NotProven."""
         if name not in self._known:

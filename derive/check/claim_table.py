@@ -62,16 +62,16 @@ class ClaimReader:
             at=f"{Path(place.file).name}:{place.line}" if place.line else "",
             seconds=seconds,
         )
-        if not wrong.errors:
+        if not wrong:
             with wrong.noted():
                 own = entry.symbols
                 context = limited(seconds, place, lambda: self._context(place, entry.body, own))
                 claim = replace(claim, units=context.mismatch(claim.text, place))
                 claim = limited(seconds, place, lambda: self._claim(claim, place, context))
-        if wrong.errors:
-            why = "; ".join(reason(error, place) for error in wrong.errors)
+        if wrong:
+            why = "; ".join(reason(error, place) for error in wrong)
             claim = replace(claim, unchecked=why)
-        self.mistakes += wrong.errors
+        self.mistakes += wrong
         self._made[entry.label] = claim
         return claim
 

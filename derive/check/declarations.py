@@ -30,7 +30,7 @@ from derive.reading.units import Dimension, parse_unit
 from derive.symbols import E_star, f, x
 
 PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
-_PREDEFINED = {"E_star": E_star, "f": f}
+_PREDEFINED = {E_star: parse_unit("Pa"), f: parse_unit("-")}
 
 
 class Declarations:
@@ -144,8 +144,11 @@ class Declarations:
 
     def letters_of(self, body: ProvenBody | None) -> dict[Symbol, Symbol]:
         """Return the symbols of the formulas of a body, each with the paper's symbol for it."""
-        letters, found = self.paper.letters, {**_PREDEFINED, **(body.parameters if body else {})}
-        return {ours: Symbol(letters.get(n, n), positive=True) for n, ours in found.items()}
+        own = [each.symbol for each in body.sheet.geometry.parameters] if body else []
+        names = {
+            ours: self.paper.letters.get(ours.name, ours.name) for ours in (*_PREDEFINED, *own)
+        }
+        return {ours: Symbol(name, positive=True) for ours, name in names.items()}
 
     def _named(self, body: ProvenBody | None) -> dict[str, Symbol]:
         return {theirs.name: theirs for theirs in self.letters_of(body).values()}
@@ -158,10 +161,8 @@ class Declarations:
         """Return the known units; positions are in metres if there is a body."""
         found = {place: parse_unit("m") for place in PLACES.values() if body}
         for each in (self.body, body):
-            own = self.letters_of(each)
-            known = {E_star: parse_unit("Pa"), f: parse_unit("-")}
-            known |= each.sheet.geometry.dimensions if each else {}
-            found |= {own.get(symbol, symbol): unit for symbol, unit in known.items()}
+            own, known = self.letters_of(each), each.sheet.geometry.dimensions if each else {}
+            found |= {own.get(s, s): unit for s, unit in (_PREDEFINED | known).items()}
         return {**found, **self.units}
 
 

@@ -6,7 +6,7 @@ Out:  one error that reports all of them; or the reason why one claim cannot be 
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TypeVar
 
 from derive.check.schema import Place
@@ -32,11 +32,8 @@ class Mistakes(UserError):
         return "\n".join([f"The claims file has {len(self.messages)} errors:", *self.messages])
 
 
-@dataclass
-class Collected:
-    """The errors of a file that have been found so far."""
-
-    errors: list[UserError] = field(default_factory=list)
+class Collected(list[UserError]):
+    """The errors that have been found so far."""
 
     @contextmanager
     def noted(self) -> Iterator[None]:
@@ -44,15 +41,13 @@ class Collected:
         try:
             yield
         except UserError as error:
-            self.errors.append(error)
+            self.append(error)
 
     def demand_none(self) -> None:
         """Raise a single error as it is, and several as Mistakes."""
-        messages = tuple(dict.fromkeys(error.message for error in self.errors))
-        if len(messages) > 1:
-            raise Mistakes(messages)
+        messages = tuple(dict.fromkeys(error.message for error in self))
         if messages:
-            raise self.errors[0]
+            raise self[0] if len(messages) == 1 else Mistakes(messages)
 
 
 def limited(seconds: float, place: Place, read: Callable[[], Read]) -> Read:

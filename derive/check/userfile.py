@@ -82,14 +82,14 @@ def read_file(path: Path) -> tuple[Paper, Declarations]:
     file = decoded(ClaimsFile, data, place, errors.noted)
     reader = ClaimReader(Declarations(file, place, errors))
     tables = [each for each in file.claims if isinstance(each, dict)]
-    errors.errors += reader.wrong_symbols(each.get("body") for each in tables)
+    errors += reader.wrong_symbols(each.get("body") for each in tables)
     with errors.noted():
         why = f"the file has {len(file.claims) or 'no'} tables [[claims]]"
         is_right = data.get("claims") and len(file.claims) <= _MAX_CLAIMS
         place.demand(bool(is_right), why, f"write 1 to {_MAX_CLAIMS} of them")
         claims = _claims(file.claims, place, reader, errors)
-    if errors.errors:
-        errors.errors += reader.mistakes
+    if errors:
+        errors += reader.mistakes
     errors.demand_none()
     signs = {name: tuple(labels) for name, labels in file.signs.items()}
     return Paper(file.title or str(path), claims, signs), reader.declared
