@@ -130,7 +130,7 @@ class Context:
         """
         if name not in self.defined and name not in self.lacking:
             try:
-                lacking = self._read(name, outer)
+                lacking = self._read(name, outer) if self.symbols[name] else name
             except UserError as error:
                 self.wrong[name], lacking = error, name
             if lacking:
@@ -138,15 +138,13 @@ class Context:
         return self.lacking.get(name, "")
 
     def _read(self, name: str, outer: tuple[str, ...]) -> str:
-        if not (text := self.symbols[name]):
-            return name
         place, seconds = self.file.place.at("symbols", name, f"symbols: {name}"), self.file.seconds
         if name in outer:
             why = f"it has a circular definition through {', '.join(outer[outer.index(name) :])}"
             raise place.bad(why, "define one of these symbols without the others")
         others = {Symbol(other) for other in self.symbols if other != name}
         names = self.names(place, [other.name for other in others])
-        found = limited(seconds, place, lambda: formula(text, names))
+        found = limited(seconds, place, lambda: formula(self.symbols[name], names))
         for inner in sorted(free(found) & others, key=str):
             if lacking := self._define(inner.name, (*outer, name)):
                 return lacking

@@ -58,6 +58,7 @@ class Equation:
         held = held.union(*(each.free_symbols for each in (*conditions, *changed)))
         places = {place: SIGNED for place in PLACES.values()}
         ranges = {**places, **context.file.ranges, **self._ranges()}
+        ends = tuple(map(context.in_variables, self._approached))
         told = (self.left, self.right, *self._approached)
         inside = {each.args[1] for expr in told for each in expr.atoms(*IMPROPER)} | bound(*told)
         named = set().union(*(expr.atoms(Symbol) for expr in told)) - inside
@@ -70,7 +71,7 @@ class Equation:
             meaning=meaning,
             reached=reached,
             through=(compared[0], compared[1]) if self.through else None,
-            toward=self._toward(),
+            toward=(ends[0], ends[1]) if ends else None,
             conventions=tuple((e, self._changed(e.symbols)) for e in entry.conventions),
             ranges={symbol: span for symbol, span in ranges.items() if symbol in held},
             conditions=conditions,
@@ -147,19 +148,11 @@ class Equation:
     @cached_property
     def _approached(self) -> tuple[Expr, ...]:
         """The expression that tends to an end, and this end, if the claim is about a limit."""
-        told = self.entry.approach
-        return approach(told, self._names("as")) if told else ()
-
-    def _toward(self) -> tuple[Expr, Expr] | None:
-        """Return the expression that tends to an end, and this end, in our variables."""
         told, order = self.entry.approach, self.entry.order
         why = f"`order` = {order!r} is not a number, or `as` is missing"
         remedy = "give `order` as a number, together with `as`"
         self.place.demand(bool(told) or order is None, why, remedy)
-        if not told:
-            return None
-        first, end = self._approached
-        return self.context.in_variables(first), self.context.in_variables(end)
+        return approach(told, self._names("as")) if told else ()
 
     def _conditions(self, held: set[Symbol]) -> tuple[Boolean, ...]:
         """Return the conditions of the formulas that are called, and those of the claim."""
