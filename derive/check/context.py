@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from sympy import Derivative, Expr, Integer, Integral, Limit, Piecewise, Symbol, expand, true
+from sympy import Derivative, Expr, Integral, Limit, Piecewise, Symbol, expand, true
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
@@ -214,24 +214,24 @@ class Context:
 
         Those of a case of a formula apply where this case does.
         """
-        every = expr.atoms(Piecewise)
-        cases = {each for each in every if not any(o != each and o.has(each) for o in every)}
-        for each in sorted(cases, key=str):
+        if isinstance(expr, Piecewise):
             others: Boolean = true
-            for value, condition in each.args:
+            for value, condition in expr.args:
                 taken = self.substitute(condition & others)
                 yield from (~taken | needed for needed in self.conditions(value))
                 others &= ~condition
-        expr = expr.xreplace(dict.fromkeys(cases, Integer(0)))
-        for call in sorted(expr.atoms(AppliedUndef), key=str):
-            known, table = self._called(call)
+            return
+        if isinstance(expr, AppliedUndef):
+            known, table = self._called(expr)
             for condition in known.conditions:
                 if not (condition.has(x) and self._is_an_end(condition, table)):
                     yield self.substitute(condition.xreplace(table))
-        for value in sorted(expr.atoms(PrincipalValue), key=str):
-            for over in integrals(self.substitute(value)):
+        if isinstance(expr, PrincipalValue):
+            for over in integrals(self.substitute(expr)):
                 if over.limits[-1][0].name.endswith(FROM_POLE):
                     yield over.limits[-1][2] > 0
+        for part in expr.args:
+            yield from self.conditions(part)
 
     def _is_an_end(self, condition: Boolean, table: Mapping[Symbol, Expr]) -> bool:
         """Whether the position in a call is an end of the contact, up to which a formula holds."""
