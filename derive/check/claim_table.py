@@ -15,7 +15,7 @@ from typing import Any
 from msgspec.structs import replace as with_entries
 from sympy import Expr, Symbol
 
-from derive.check.bodies import ProvenBody, body_of
+from derive.check.bodies import body_of
 from derive.check.claim import AsMeant, Claim
 from derive.check.context import Context, as_text, calls_in, free, with_real_bound
 from derive.check.declarations import Declarations, demand_name
@@ -49,7 +49,7 @@ class ClaimReader:
     mistakes: list[UserError] = field(default_factory=list)
     _defined: dict[str, tuple[str, str]] = field(default_factory=dict)
     _made: dict[str, Claim] = field(default_factory=dict)
-    _contexts: dict[ProvenBody | None, Context] = field(default_factory=dict)
+    _contexts: dict[tuple[object, ...], Context] = field(default_factory=dict)
 
     def claim(self, given: Mapping[str, Any], place: Place) -> Claim:
         """Return a claim, which must have a label."""
@@ -91,12 +91,13 @@ class ClaimReader:
         body = self.declared.body if given is None else body_of(given, place)
         for name in own:
             demand_name(name, place)
-        if body not in self._contexts:
-            self._contexts[body] = Context(
-                self.declared, body, self.declared.symbols, self.declared.variables_with(body)
-            )
-        texts = {name: str(formula).strip() for name, formula in own.items()}
-        return self._contexts[body].replaced(texts) if own else self._contexts[body]
+        texts, file = {name: str(text).strip() for name, text in own.items()}, self.declared
+        key = body, *sorted(texts.items())
+        if own and key not in self._contexts:
+            self._contexts[key] = self._context(place, given).replaced(texts)
+        elif key not in self._contexts:
+            self._contexts[key] = Context(file, body, file.symbols, file.variables_with(body))
+        return self._contexts[key]
 
     def _redefined(self, entry: Entry, place: Place, changed: Mapping[str, Formula]) -> Context:
         """Return the context with the symbols that the given claims define, and others changed."""
