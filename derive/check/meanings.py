@@ -81,6 +81,15 @@ _RANGES = {"nu": (0.0, 0.5), "kappa": (1.0, 3.0)}
 _STICK = {"even": ("m", "m"), "uneven": ("m", "n"), "eccentric": ("d - e", "d + e")}
 _ENDS = {"even": "its half-width alone", "uneven": "its two ends", "eccentric": "d and e"}
 _CONSTANTS = {"E", "mu"}
+_ABSENT = {
+    "symmetric": "the contact is not symmetric",
+    "general": "the contact is symmetric",
+    "hertz": "the body is not hertz",
+    "nu": "the elastic constants are {modulus}",
+    "kappa": "the elastic constants are {modulus}",
+    "": "the stick zone is given by {ends}",
+}
+"""The reasons why rows with these cases do not apply, of which the first is given."""
 
 
 class _Row(NamedTuple):
@@ -182,25 +191,13 @@ def standard(answers: Answers, geometry: Geometry, place: Place) -> Standard:
     within = {f"{end} < {edge}" for end, edge in zip(stick, edges, strict=True)}
     conditions = tuple(_replaced(_WORD, letters, each) for each in sorted(within))
     known = {*rows, *names.values(), *variables, *symbols}
-    absent = {
-        name: _because(row.cases - cases, zone, answers.modulus)
-        for row in sorted(_ROWS, key=lambda row: -len(row.cases - cases))
-        if row.letter not in known and (name := _replaced(_PARTS, names, row.pattern)) not in known
-    }
+    absent = dict[str, str]()
+    for row in sorted(_ROWS, key=lambda row: -len(row.cases - cases)):
+        name, missing = _replaced(_PARTS, names, row.pattern), row.cases - cases | {""}
+        if row.letter not in known and name not in known:
+            why = next(why for case, why in _ABSENT.items() if case in missing)
+            absent[name] = why.format(modulus=answers.modulus, ends=_ENDS[zone])
     return Standard(letters, variables, symbols, conditions, absent, geometry.name, answers)
-
-
-def _because(missing: Collection[str], zone: str, modulus: str) -> str:
-    """Return the reason why the cases of a row do not apply."""
-    why = {
-        "symmetric": "the contact is not symmetric",
-        "general": "the contact is symmetric",
-        "hertz": "the body is not hertz",
-        "nu": f"the elastic constants are {modulus}",
-        "kappa": f"the elastic constants are {modulus}",
-    }
-    ends = f"the stick zone is given by {_ENDS[zone]}"
-    return next((why[case] for case in why if case in missing), ends)
 
 
 def _zone(answers: Answers) -> str:
