@@ -94,13 +94,16 @@ def draft_claims(path: Path, inline: bool = False, standard: Standard = NONE) ->
     if not source.found:
         why = "the file has no displayed equations"
         raise BadClaimsFile(str(path), why, "give a paper in LaTeX")
-    printed = [(each, _statements(path.name, each)) for each in source.found]
-    read = [each for _, found in printed for each in found if not each.why]
-    formulas = [formula for each in read for formula in (each.tokens, *each.conditions)]
-    functions = functions_in(formulas)
-    spelled = {own: n for each in formulas for own, n in spellings(each, functions).items()}
-    names = Names("", {name: Symbol(name) for name in spelled.values()}, {})
-    claims, defined = list[dict[str, Any]](), dict[str, dict[str, str]]()
+    made = Draft(source.title or path.name, source.environments, answers, standard)
+    known = [(each, _statements(path.name, each)) for each in source.found]
+    shown, asides = list[list[Token]](), list[list[Token]]()
+    for display, statement in ((d, each) for d, found in known for each in found if not each.why):
+        formulas = asides if display.is_aside else shown
+        formulas += [statement.tokens, *statement.conditions]
+    functions = functions_in(shown)
+    spelled = _spelled(shown)
+    made.spelled = _spelled(asides) | spelled
+    names = Names("", {name: Symbol(name) for name in made.spelled.values()}, {})
     used, seen = Counter[str](), set[str]()
     for display, found in printed:
         latex = Latex("the draft", display.latex, spelled)
@@ -168,7 +171,8 @@ def _read(
     functions: the symbols that are printed as functions, and nowhere without parentheses
     """
     found, defined, why = dict[str, Any](), ("", ""), statement.why
-    if not why and (called := unclear_call(statement.tokens, functions)):
+    shown = (statement.tokens, *statement.conditions)
+    if not why and (called := unclear_call(shown, functions)):
         why = f"{called} is a function elsewhere, so it is unclear whether it is a factor here"
         why += ": write the claim as text"
     try:
@@ -228,6 +232,11 @@ def _statements(name: str, display: Display) -> list[Statement]:
         return statements(name, display.latex) or [Statement([], why="it has no relation")]
     except BadFormula as error:
         return [Statement([], why=reason(error))]
+
+
+def _spelled(formulas: list[list[Token]]) -> dict[str, str]:
+    """Return a name for the LaTeX of every symbol in formulas."""
+    return {latex: name for each in formulas for latex, name in spellings(each).items()}
 
 
 def _is_stated(latex: str, statement: Statement) -> bool:

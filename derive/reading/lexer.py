@@ -28,9 +28,6 @@ ROUGH     \sim   \simeq \approx \cong
 TO        \to    \rightarrow \longrightarrow
 NE        \ne    \neq unequal
 PROPTO    \propto
-RELATED   \ll
-RELATED   \gg
-RELATED   \in
 IMPLIES   \implies \Rightarrow \Longrightarrow
 IFF       \iff   \Leftrightarrow \Longleftrightarrow
 AND       \and   \therefore
@@ -70,6 +67,8 @@ _LETTERS = r"""
 \nu \xi \rho \varrho \sigma \tau \upsilon \phi \varphi \chi \psi \omega \ell \Gamma \Delta \Theta
 \Lambda \Xi \Pi \Sigma \Upsilon \Phi \Psi \Omega
 """
+_RELATED = r"\ll \gg \lesssim \gtrsim \asymp \in \subset \stackrel \overset \underset"
+"""What may relate two sides, but is never read."""
 GREEK = frozenset(_LETTERS.split())
 ENDS_SOONER = ("circular", "hyperbolic")
 """Functions of angles and their inverses: the name of the next function ends their argument."""
@@ -80,6 +79,7 @@ _TABLE = {
     for spelling in (plain, *others)
 }
 _TABLE |= dict.fromkeys(GREEK, ("LETTER", ""))
+_TABLE |= dict.fromkeys(_RELATED.split(), ("RELATED", ""))
 for _each, _name in COMMANDS.items():
     _circular = FUNCTIONS[_name].like.endswith(ENDS_SOONER)
     _TABLE.setdefault(_each, ("CIRCULAR" if _circular else "FUNC", _each))
@@ -121,7 +121,6 @@ _UNITS = frozenset("gmsJNW")
 
 _SPACE = r"(?:~|\\[;:, >])"
 _FONTS = "text|mbox|hbox|textnormal|mathrm|textrm|textit|mathit|operatorname|mathbf|textsf|mathsf"
-_ROUGHLY = r"\\(?:sim|simeq|approx|cong)(?![A-Za-z])|="
 _TOKEN = re.compile(
     rf"""(?P<layout>
         \\l?eqno(?![A-Za-z]).*
@@ -136,22 +135,16 @@ _TOKEN = re.compile(
     | (?P<open>\\(?:left|right)\s*\{{) | (?P<close>\\(?:left|right)\s*\}})
     | (?P<order>(?:\\(?:mathcal|mathscr)\s*(?:\{{\s*O\s*\}}|O))
       | [Oo](?=(?:\s|\\left|\\[bB]igg?l?)*\())
-    | (?P<principal>\\Xint\s*(?:-|\{{-\}}) | -(?:\s|\{{\}})*\\!(?:\s|\\!|\{{\}})*\\int(?![A-Za-z]))
+    | (?P<principal>-(?:\s|\{{\}})*\\!(?:\s|\\!|\{{\}})*\\int(?![A-Za-z]))
     | (?P<value>(?:\||\\r?vert)(?=\s*_))
-    | (?P<defined>:\s*= | \\stackrel\s*\{{\s*\\\w+\s*\{{?\s*def\.?\s*\}}?\s*\}}\s*\{{\s*=\s*\}})
-    | (?P<unequal>\\not\s*=)
-    | (?P<stacked>\\(?:underset|overset|stackrel)
-        \s*\{{(?P<beneath>[^{{}}]*\\(?:to|rightarrow)(?![A-Za-z])[^{{}}]*)\}}
-        \s*\{{?\s*(?P<relation>{_ROUGHLY})\s*\}}?)
+    | (?P<defined>:\s*=) | (?P<unequal>\\not\s*=)
     | (?P<dots>\.\s*\.\s*\.)
     | (?P<row>\\\\\*?(?:\[[^\]]*\])?)
     | (?P<environment>(?P<curly>\\\{{\s*)?\\(?:(?P<begin>begin)|end)\s*\{{(?P<name>[A-Za-z]+\*?)\}}
         (?(begin)(?:(?:(?<=array\}})|(?<=edat\}}))\s*\{{[^{{}}]*\}})?))
-    | (?P<mixed>\\(?:text|mbox|hbox|textrm|textnormal)\s*
-        \{{(?P<mixture>(?:[^{{}}$]*\$[^$]*\$)+[^{{}}$]*)\}})
-    | (?P<roman>\{{\s*\\(?:rm|it|bf|sf)(?![A-Za-z])\s*(?P<old>[^{{}}\\]*)\}})
-    | (?P<words>(?P<closed>\{{\s*)?\\(?P<font>{_FONTS})\*?
-        \s*(?:\{{(?P<inner>[^{{}}]*)\}} | (?<=\s)(?P<letter>[A-Za-z]))(?(closed)\s*\}}))
+    | (?P<words>\{{\s*\\(?:rm|it|bf|sf)(?![A-Za-z])\s*(?P<old>[^{{}}\\]*)\}}
+      | (?P<closed>\{{\s*)?\\(?P<font>{_FONTS})\*?\s*
+        (?:\{{(?P<inner>(?:[^{{}}$]|\$[^$]*\$)*)\}} | (?<=\s)(?P<letter>[A-Za-z]))(?(closed)\s*\}}))
     | (?P<command>\\[A-Za-z]+ | \\. | .)
     """,
     re.DOTALL | re.VERBOSE,
@@ -251,26 +244,16 @@ def _order(match: re.Match[str], before: list[Token]) -> list[Token]:
     return [Token("REST", rf"\mathcal{{{letter}}}", match.start())]
 
 
-def _stacked(match: re.Match[str], _: list[Token]) -> list[Token]:
-    r"""Read \underset{x \to 0}{\sim} as the relation and its limit."""
-    limit = scan(match.string, *match.span("beneath"))
-    under = [each._replace(type=f"UNDER {each.type}") for each in limit]
-    return [Token(*_TABLE[match["relation"]], match.start()), *under]
-
-
-def _mixed(match: re.Match[str], before: list[Token]) -> list[Token]:
-    r"""Read \text{for $x > 0$} as \text{for} x > 0."""
-    made, start = list[Token](), match.start("mixture")
-    for n, part in enumerate(match["mixture"].split("$")):
+def _words(match: re.Match[str], before: list[Token]) -> list[Token]:
+    r"""Read words, and \text{for $x > 0$} as \text{for} x > 0."""
+    group = next(each for each in ("old", "inner", "letter") if match[each] is not None)
+    made, start = list[Token](), match.start(group)
+    for n, part in enumerate(match[group].split("$")):
         span = (start, start + len(part))
-        made += scan(match.string, *span) if n % 2 else _worded(part, "", match, span, before)
+        font = match["font"] or ""
+        made += scan(match.string, *span) if n % 2 else _worded(part, font, match, span, before)
         start = span[1] + 1
     return made
-
-
-def _words(match: re.Match[str], before: list[Token]) -> list[Token]:
-    group = next(each for each in ("old", "inner", "letter") if match[each] is not None)
-    return _worded(match[group], match["font"] or "", match, match.span(group), before)
 
 
 def _worded(
@@ -308,10 +291,7 @@ def _in_script(before: list[Token]) -> bool:
 _READERS: Mapping[str, Callable[[re.Match[str], list[Token]], list[Token]]] = {
     "number": _number,
     "order": _order,
-    "stacked": _stacked,
     "environment": _environment,
-    "mixed": _mixed,
-    "roman": _words,
     "words": _words,
 }
 

@@ -2,9 +2,8 @@ r"""Find the symbols in LaTeX, and give a name to each.
 
 A letter with all its indices and accents is one symbol: K_{N,c}, E^*, \Delta Q, q_1^{(asy)}(x).
 A letter followed by a symbol, or a list of symbols, in parentheses is a function, which is one
-symbol as well; p(x) and p(x, c) are two different symbols.  So is p(a - s), its value there, if p
-is printed as a function and never alone.  The draft lists every spelling, so that the user can
-check it.
+symbol as well; p(x) and p(x, c) are two different symbols.  The draft lists every spelling, so that
+the user can check it.
 """
 
 import re
@@ -41,12 +40,6 @@ for _ in range(3):  # arguments may be functions
     _ARGUMENT = rf"(?:\d+ (?=[,;)]|$)|{_WHOLE}{_CALL})"
     _CALL = rf"(?:\( (?:{_ARGUMENT}(?:[,;] (?!\))|(?=\))))+\) )?"
 _SYMBOL = _WHOLE + _CALL
-_TERM = rf"(?:(?:\d+ )?{_WHOLE}|\d+ )"
-_TERM = rf"(?:{_TERM}(?:/ {_TERM})?|\\frac \{{ {_TERM}\}} \{{ {_TERM}\}} |\| {_TERM}\| )"
-_SUM = rf"(?:[+-] )?(?:{_TERM}(?:[+-] (?![,;)])|(?=[,;)])))+"
-_VALUE = re.compile(rf"\( ((?:{_SUM}(?:[,;] (?!\))|(?=\))))+)\) ")
-"""Arguments of what is known to be a function."""
-_OPERATIONS = {"+": "plus", "-": "minus", "/": "over"}
 _TIMES = r"(?:\^ (?:\d |\{ \d \} ))?"
 _DERIVATIVE = (
     rf"\\frac \{{ (?:\\dd |\\partial )({_TIMES})({_SYMBOL})\}} "
@@ -62,23 +55,11 @@ _NAMED = {
 """What stands in a name for parts of a symbol; formulas may not hold lambda."""
 
 
-def symbols(
-    tokens: Sequence[Token], functions: Collection[str] = ()
-) -> Iterator[tuple[int, int, str]]:
-    """Yield the start, the end and a name for each symbol.
-
-    functions: symbols of which anything in parentheses is the argument
-    """
+def symbols(tokens: Sequence[Token]) -> Iterator[tuple[int, int, str]]:
+    """Yield the start, the end and a name for each symbol."""
     text = "".join(token.text.replace(" ", "~") + " " for token in tokens)
-    at = 0
-    while match := _FOUND.search(text, at):
-        start, at = match.start(), match.end()
-        first, last, name = text.count(" ", 0, start), text.count(" ", 0, at), _name(match)
-        value = _VALUE.match(text, at) if _spelled(tokens[first:last]) in functions else None
-        if value:
-            at = value.end()
-            last, name = text.count(" ", 0, at), f"{name}_at_{_argument_name(value[1])}"
-        yield first, last, name
+    for match in _FOUND.finditer(text):
+        yield text.count(" ", 0, match.start()), text.count(" ", 0, match.end()), _name(match)
 
 
 def _name(match: re.Match[str]) -> str:
@@ -107,24 +88,15 @@ def _hung_name(match: re.Match[str]) -> str:
     return "_" + "_".join(_SIGNS.get(word, word) for word in words.split(",") if word)
 
 
-def _argument_name(text: str) -> str:
-    text = re.sub(r"\| (.*?)\| ", r"abs \1", text.replace("} { ", "/ "))
-    parts = re.findall(rf"{_WHOLE}|[\w+/-]+(?= )", re.sub(r"\\frac |[{}] ", "", text))
-    named = (_OPERATIONS.get(p) or (p if p.isalnum() else _symbol_name(p)) for p in parts)
-    return "_".join(named)
-
-
-def spellings(tokens: Sequence[Token], functions: Collection[str] = ()) -> dict[str, str]:
+def spellings(tokens: Sequence[Token]) -> dict[str, str]:
     """Return a name for the LaTeX of every symbol."""
-    found = symbols(tokens, functions)
+    found = symbols(tokens)
     return {_spelled(tokens[start:end]): name for start, end, name in found if usable(name)}
 
 
-def _plain_ones(
-    tokens: Sequence[Token], functions: Collection[str] = ()
-) -> Iterator[tuple[str, bool]]:
+def _plain_ones(tokens: Sequence[Token]) -> Iterator[tuple[str, bool]]:
     """Yield the symbols printed without arguments, and whether a parenthesis follows."""
-    for start, end, name in symbols(tokens, functions):
+    for start, end, name in symbols(tokens):
         if "_at_" not in name:
             yield _spelled(tokens[start:end]), [t.text for t in tokens[end : end + 1]] == ["("]
 
@@ -139,13 +111,10 @@ def functions_in(formulas: Iterable[Sequence[Token]]) -> set[str]:
     return found - alone
 
 
-def unclear_call(tokens: Sequence[Token], functions: Collection[str]) -> str:
-    """Return a function after which the parentheses hold no argument that can be named.
-
-    The result is empty if there is none.
-    """
-    plain_ones = _plain_ones(tokens, functions)
-    return next((own for own, follows in plain_ones if follows and own in functions), "")
+def unclear_call(formulas: Iterable[Sequence[Token]], functions: Collection[str]) -> str:
+    """Return a function before parentheses that hold no list of symbols; empty if there is none."""
+    found = (each for tokens in formulas for each in _plain_ones(tokens))
+    return next((own for own, follows in found if follows and own in functions), "")
 
 
 def _spelled(tokens: Sequence[Token]) -> str:

@@ -197,18 +197,12 @@ def _belongs(piece: Sequence[Token], at: int, before: Sequence[Token]) -> bool:
 
 
 def _with_condition(piece: Sequence[Token]) -> Statement:
-    """Divide an entry from a condition in parentheses at its end, or below its relation."""
-    tokens = [each for each in piece if not each.type.startswith("UNDER ")]
-    under = [
-        each._replace(type=each.type.removeprefix("UNDER "))
-        for each in piece
-        if each.type.startswith("UNDER ")
-    ]
-    conditions = [under] if under else []
+    """Divide an entry from a condition in parentheses at its end."""
+    tokens, conditions = [*piece], list[list[Token]]()
     start = max((n for n, t in enumerate(tokens) if t.text == "(" and not t.depth), default=0)
     inner = [each._replace(depth=each.depth - 1) for each in tokens[start + 1 : -1]]
     if start and tokens[-1].text == ")" and _relations(inner):
-        tokens, conditions = tokens[:start], [inner, *conditions]
+        tokens, conditions = tokens[:start], [inner]
     return Statement(tokens, conditions)
 
 

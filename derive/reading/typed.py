@@ -32,13 +32,11 @@ _TEMPLATES = {
     "nth_root": ("power", "{2:atom}**(1/{1:power})"),
     "euler": ("atom", "exp(1)"),
     "exponential": ("atom", "exp({2})"),
-    "integral": ("atom", "{0}({2}, {4}, {1.low}, {1.high})"),
-    "series": ("atom", "sum({2}, {1.along}, {1.low}, {1.high})"),
+    "integral": ("atom", "{0}({2}, {4}, {1[0]}, {1[1]})"),
+    "series": ("atom", "sum({7}, {2}, {4}, {6})"),
     "limit": ("atom", "limit({5}, {2}, {4})"),
 }
 """The precedence and the typed text of rules, with the parts of the rule by their numbers."""
-_BOUND = {"series": r"\b{1.along}\b", "limit": ""}
-"""A pattern for terms that may belong to the sum or limit before them."""
 _TWO_RELATIONS = {"NE": "({0} < {2} or {0} > {2})", "EQUAL": "({0} <= {2} and {0} >= {2})"}
 """Conditions that are typed as two others."""
 _FUNCTIONS = frozenset(("FUNC", "CIRCULAR"))
@@ -58,7 +56,7 @@ class _Code:
     slashed  whether a slash stands before its last factor
     follow   the terminals that may follow; None if any may
     unclear  two readings with anything else that follows, which stands for {}
-    bound    a pattern for terms that may belong to a sum or a limit at its end
+    is_open  whether it ends with a sum or a limit, to which a further term may belong
     """
 
     text: str
@@ -70,7 +68,7 @@ class _Code:
     slashed: bool = False
     follow: frozenset[str] | None = None
     unclear: tuple[str, str] = ("", "")
-    bound: str | None = None
+    is_open: bool = False
 
     def __format__(self, level: str) -> str:
         """Return the text for use at a level, in parentheses if they are needed."""
@@ -80,15 +78,6 @@ class _Code:
         """Refuse what follows a function if it may belong to its argument."""
         if self.follow is not None and kind not in self.follow:
             raise _unclear_argument(at, *(each.format(following) for each in self.unclear))
-
-
-@dataclass(frozen=True)
-class Limits:
-    """The limits of an integral or a sum, and the variable of a sum."""
-
-    low: _Code
-    high: _Code
-    along: str
 
 
 Argument = tuple[str, list[str], int]
@@ -135,13 +124,11 @@ class _Typed(Transformer[Any, Any]):
         return replace(term, text=f"-{term:product}", level="", is_one=False)
 
     def added(self, left: _Code, sign: Token, term: _Code) -> _Code:
-        if left.bound is not None and re.search(left.bound, term.text):
-            what = "sum" if left.bound else "limit"
-            why = f"it is unclear whether this belongs to the {what}"
+        if left.is_open:
+            why = "it is unclear whether this belongs to the sum or limit before it"
             raise Unclear(sign.at, why, "use parentheses")
-        bound = left.bound if term.bound is None else term.bound
         text = f"{left} {sign.text} {term:product}"
-        return replace(term, text=text, level="", is_one=False, bound=bound)
+        return replace(term, text=text, level="", is_one=False)
 
     def multiplied(self, left: _Code, operator: Token | None, right: _Code) -> _Code:
         at, kind = (operator.at, operator.type) if operator else (right.at, right.kind)
@@ -202,19 +189,10 @@ class _Typed(Transformer[Any, Any]):
         inside = _from_template("fraction", bar, over, under)
         if before:
             inside = self.multiplied(before, None, inside)
-        return self.integral(sign, limits, inside, differential, along)
+        return _from_template("integral", sign, limits, inside, differential, along)
 
-    def integral(self, *parts: Any) -> _Code:
-        limits, along = parts[1], parts[4]
-        if limits.along not in ("", typed(along)):
-            why = f"the limits are those of {limits.along}, but the integral is over {typed(along)}"
-            raise Unclear(along.at, why, "correct one of them")
-        return _from_template("integral", *parts)
-
-    def limits(self, *parts: Any) -> Limits:
-        low, high = (each for each in parts if isinstance(each, _Code))
-        names = [typed(each) for each in parts if getattr(each, "type", "") == "SYMBOL"]
-        return Limits(low, high, "".join(names))
+    def limits(self, low: _Code, _: Token, high: _Code) -> tuple[_Code, _Code]:
+        return low, high
 
     def cases(self, *parts: Any) -> _Code:
         rows = ", ".join(each for each in parts if isinstance(each, str))
@@ -289,8 +267,8 @@ def _unclear_argument(at: int, one: str, other: str) -> Unclear:
 def _from_template(rule: str, *parts: Any) -> _Code:
     texts = [typed(each) if isinstance(each, Token) else each or "1" for each in parts]
     level, template = _TEMPLATES[rule]
-    bound = _BOUND[rule].format(*texts) if rule in _BOUND else None
-    return _Code(template.format(*texts), level, parts[0].type, parts[0].at, bound=bound)
+    text, is_open = template.format(*texts), rule in ("series", "limit")
+    return _Code(text, level, parts[0].type, parts[0].at, is_open=is_open)
 
 
 def typed(token: Token) -> str:
