@@ -27,7 +27,7 @@ from derive.reading.formula import (
     Names,
     UnknownName,
     equation,
-    may_be_rounded,
+    rounded_in,
     unknown,
     usable,
 )
@@ -227,7 +227,7 @@ def _as_read(claim: Claim, place: Place, names: Names, spellings: Mapping[str, s
 
 def _may_be_rough(entry: Entry, text: str) -> bool:
     """Whether an equation may use ~, because it has a limit or a rounded constant."""
-    return bool(entry.approach or entry.leading) or may_be_rounded(text)
+    return bool(entry.approach or entry.leading or rounded_in(text))
 
 
 def _understood(entry: Entry, place: Place, spelled: Mapping[str, str]) -> str:

@@ -27,7 +27,7 @@ from derive.reading.formula import (
     approach,
     condition,
     equation,
-    may_be_rounded,
+    rounded_in,
     sides,
     unknown,
     usable,
@@ -191,7 +191,7 @@ def _read(
         why = "" if found else f"it could not be read within {_SECONDS:g} s"
     conditions, unclear = _conditions(latex, statement, names)
     found |= conditions
-    is_exact = not statement.is_rough or may_be_rounded(found.get("understood", ""))
+    is_exact = not statement.is_rough or rounded_in(found.get("understood", ""))
     if not (unclear or is_exact or "as" in conditions):
         unclear = "it is an approximation: add its limit, such as as = 'x -> 0', or write it with ="
     if why or unclear:

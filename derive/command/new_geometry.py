@@ -17,7 +17,7 @@ from derive.codegen.module import formatted
 from derive.command.errors import BadName, BadProfile, BadUnit, UserError
 from derive.command.options import bad_option
 from derive.command.processes import Bounds, Report, in_processes, silent
-from derive.reading.profile import parameters, read, tree_of, value
+from derive.reading.profile import read, tree_of, value
 from derive.reading.units import units_of_profile
 from derive.reading.words import refusal
 from derive.symbols import RESERVED, x
@@ -78,7 +78,8 @@ def new_geometry(wanted: Wanted, report: Report = silent) -> tuple[Geometry, str
     report(f"g of {wanted.name!r}", "reading g(x)")
     _demand_name(wanted.name)
     tree = tree_of(wanted.profile)
-    names = parameters(tree)
+    names = tree.names()
+    has_x = names.pop("x", None) is not None
     for option, given in (("--unit", wanted.units), ("--meaning", wanted.meanings)):
         for name, text in given.items():
             if name not in names:
@@ -89,7 +90,7 @@ def new_geometry(wanted: Wanted, report: Report = silent) -> tuple[Geometry, str
                 f"it has more than {_LONGEST_UNIT} characters, or characters that cannot be printed"
             )
             raise BadUnit(repr(unit[:_LONGEST_UNIT]), why)
-    if "x" not in tree.names():
+    if not has_x:
         raise without_x(wanted.name, names)
     if (count := len(names)) > _MOST_PARAMETERS:
         why = f"has {count} parameters, and at most {_MOST_PARAMETERS} are allowed"

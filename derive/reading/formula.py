@@ -14,6 +14,7 @@ that call.  Their ends may be `oo` or `-oo`.
 import operator
 import re
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -28,7 +29,7 @@ from derive.command.errors import BadFormula, BadText
 from derive.reading.improper import PrincipalValue, ToInfinity
 from derive.reading.limits import fault
 from derive.reading.relation import Relation
-from derive.reading.text import LONGEST, Call, Node, Tree, column, names_in, parse
+from derive.reading.text import LONGEST, Call, Node, Tree, column, parse
 from derive.reading.value import Meaning
 from derive.reading.words import FUNCTIONS, KEYWORDS, LOGICAL, PI, Function, Words
 
@@ -98,19 +99,20 @@ def unknown(text: str, names: Names) -> list[str]:
     """Return all unknown names in a text; a bound variable is known only inside its call."""
     found = set[str]()
     for start in ("relation", "text"):
-        try:
-            whole = parse(text, names.words, start).whole
-        except BadText:
-            continue
-        bound = {
-            id(name)
-            for call in whole.find_data("call")
-            if call.children[0] in _BINDING
-            for name in (*names_in(call.children[1]), call.children[2])
-            if name == call.children[2]
-        }
-        found |= {str(each) for each in names_in(whole) if id(each) not in bound}
+        with suppress(BadText):
+            found |= _free(parse(text, names.words, start).whole)
     return sorted(found - names.symbols.keys() - {"oo"})
+
+
+def _free(node: Node) -> set[str]:
+    """Return the names in a node that none of its calls bind."""
+    if isinstance(node, Token):
+        return {str(node)} if node.type == "NAME" else set()
+    first, *others = map(_free, node.children)
+    if node.data == "call" and node.children[0] in _BINDING:
+        over, along, *others = others
+        first = over - along if isinstance(node.children[2], Token) else over | along
+    return first.union(*others)
 
 
 def formula(text: str, names: Names) -> Expr:
@@ -261,11 +263,6 @@ def rounded_in(text: str) -> list[re.Match[str]]:
     """Find the decimal numbers that have enough digits to be rounded values."""
     decimals = re.finditer(r"(?<![\w.])\d*\.\d+(?![\w.])", text)
     return [n for n in decimals if len(n[0].replace(".", "").lstrip("0")) >= _ROUNDED_FROM]
-
-
-def may_be_rounded(text: str) -> bool:
-    """Whether a formula contains a number that may be rounded."""
-    return bool(rounded_in(text))
 
 
 def usable(name: str, taken: Collection[str] = ()) -> bool:

@@ -1,5 +1,6 @@
 """Principal values and integrals to infinity, which SymPy does not have."""
 
+from functools import reduce
 from typing import Any
 
 from sympy import (
@@ -29,26 +30,25 @@ class NoPole(BadFormula):
     """A principal value whose integrand does not have exactly one recognisable pole."""
 
 
-class PrincipalValue(Function):
+class _Improper(Function):
+    integrates = True
+    mark = ""
+
+    def _latex(self, printer: LatexPrinter) -> str:
+        return f"{self.mark}{printer._print(as_integral(self))}"
+
+
+class PrincipalValue(_Improper):
     """The principal value of an integral along a symbol between two ends; see `proper`."""
 
     nargs = 4
-    integrates = True
-
-    def _latex(self, printer: LatexPrinter) -> str:
-        inside, *limits = self.args
-        return rf"\mathrm{{PV}}\!{printer._print(Integral(inside, tuple(limits)))}"
+    mark = r"\mathrm{PV}\!"
 
 
-class ToInfinity(Function):
+class ToInfinity(_Improper):
     """An integral along a symbol from a lower end to infinity."""
 
     nargs = 3
-    integrates = True
-
-    def _latex(self, printer: LatexPrinter) -> str:
-        inside, *limits = self.args
-        return str(printer._print(Integral(inside, (*limits, oo))))
 
 
 IMPROPER = (PrincipalValue, ToInfinity)
@@ -60,11 +60,11 @@ def ordinary(expr: Expr) -> Expr:
 
 
 def as_integral(node: Expr) -> Integral:
-    """The same as an integral of SymPy; the end of one to infinity is its beginning."""
+    """The same as an integral of SymPy."""
     if isinstance(node, Integral):
         return node
     inside, along, low, *high = node.args
-    return Integral(inside, (along, low, *(high or [low])))
+    return Integral(inside, (along, low, *(high or [oo])))
 
 
 def typed(expr: Any) -> Any:
@@ -74,19 +74,15 @@ def typed(expr: Any) -> Any:
 
 
 def _call(node: Expr) -> Expr:
-    if isinstance(node, PrincipalValue):
-        return Function("pv")(*node.args)
-    if isinstance(node, ToInfinity):
-        return Function("integral")(*node.args, oo)
     if isinstance(node, Limit):
         return Function("limit")(*node.args[:3])
     if isinstance(node, Derivative):
         ((along, times),) = node.variable_count
         return Function("diff")(node.expr, along, *([times] if times != 1 else []))
-    inside = node.function
-    for limits in node.limits:
-        inside = Function("integral")(inside, *limits)
-    return inside
+    over, name = as_integral(node), "pv" if isinstance(node, PrincipalValue) else "integral"
+    return reduce(
+        lambda inside, limits: Function(name)(inside, *limits), over.limits, over.function
+    )
 
 
 def proper(expr: Any) -> Any:

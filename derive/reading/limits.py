@@ -58,11 +58,5 @@ def terms(expr: Expr) -> int:
     if isinstance(expr, Pow) and expr.exp.is_Rational:
         of_base, power = terms(expr.base), ceil(abs(expr.exp))
         return comb(of_base + power - 1, power) if power <= STEEPEST else MOST_TERMS + 1
-    return max([1, *(terms(branch) for branch in _branches(expr))])
-
-
-def _branches(expr: Expr) -> tuple[Expr, ...]:
-    """The subexpressions that count for a function: its arguments, or the values of a Piecewise."""
-    if isinstance(expr, Piecewise):
-        return tuple(value for value, _ in expr.args)
-    return expr.args
+    values = [part.expr for part in expr.args] if isinstance(expr, Piecewise) else expr.args
+    return max([1, *map(terms, values)])

@@ -24,7 +24,7 @@ def read(text: str) -> Expr:
     Abs(x)**(3/2)/sqrt(R)
     """
     tree = tree_of(text)
-    return value(tree, {name: Symbol(name, positive=True) for name in parameters(tree)})
+    return value(tree, {name: Symbol(name, positive=True) for name in tree.names()})
 
 
 def tree_of(text: str) -> Tree:
@@ -34,12 +34,7 @@ def tree_of(text: str) -> Tree:
 
 def value(tree: Tree, symbols: Mapping[str, Symbol]) -> Expr:
     """The expression of g(x) with the given symbols for its parameters; raises BadText."""
-    return Meaning(tree, {"x": x, **symbols}).value(tree.root)
-
-
-def parameters(tree: Tree) -> dict[str, int]:
-    """Every parameter of g(x), with the column of its first occurrence."""
-    return {name: column for name, column in tree.names().items() if name != "x"}
+    return Meaning(tree, {**symbols, "x": x}).value(tree.root)
 
 
 def _mistake(name: str) -> tuple[str, str] | None:

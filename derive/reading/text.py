@@ -62,11 +62,11 @@ _NAMES = frozenset(("NAME", "PI", "TRUE"))
 _OPERANDS = _NAMES | {"NUMBER", "RPAR"}
 """Terminals after which no operand may follow."""
 _OPERANDS_BEGIN = _NAMES | {"NUMBER", "LPAR", "FUNCTION"}
-_RELATIONS = frozenset(("ORDER", "EQUAL", "NOT", "ARROW"))
+_RELATIONS = frozenset(("ORDER", "EQUAL", "TILDE", "ARROW"))
 """Terminals that may stand between the two sides of an equation or a limit."""
 _ONE = "write exactly one, as in left = right or x -> 0"
 """The remedy for a text with no relation, or with two."""
-_AROUND = frozenset(("LPAR", "PREFIX", "NOT", "POWER"))
+_AROUND = frozenset(("LPAR", "PREFIX", "NOT", "TILDE", "POWER"))
 """Terminals that nest what follows."""
 
 
@@ -89,15 +89,10 @@ class Tree:
     def names(self, node: Node | None = None) -> dict[str, int]:
         """Every name that is not a function or constant, with the column where it first occurs."""
         columns: dict[str, int] = {}
-        for token in names_in(self.whole if node is None else node):
+        within = Branch("part", [self.whole if node is None else node])
+        for token in within.scan_values(lambda each: getattr(each, "type", "") == "NAME"):
             columns.setdefault(str(token), column(token))
         return columns
-
-
-def names_in(node: Node) -> Iterable[Token]:
-    """The names in a part of a tree, in the order of the text."""
-    within = Branch("part", [node])
-    return within.scan_values(lambda each: isinstance(each, Token) and each.type == "NAME")
 
 
 def column(node: Node) -> int:
@@ -154,7 +149,8 @@ def parse(text: str, words: Words, start: str = "text") -> Tree:
         known, count = words.functions[str(name)], len(given)
         if not known.least <= count <= known.most:
             remedy = "leave out the others" if count > known.most else "add the missing ones"
-            why = f"{name} takes {known.number}, but {count} are given"
+            number = f"{known.least} to " * (known.least < known.most) + str(known.most)
+            why = f"{name} takes {number} argument{'s' * (known.most > 1)}, but {count} are given"
             raise refusal(text, column(call), why, remedy)
     return tree
 

@@ -229,8 +229,8 @@ class Units:
     def _of_integral(self, expr: Integral) -> Dimension:
         total, outside = NUMBER, self.known
         for variable, *ends in reversed(expr.limits):
-            along = self.common(ends, expr)
-            if along is None:  # both ends are zero, or zero and infinity
+            along = self.common([end for end in ends if end != S.Infinity], expr)
+            if along is None:  # the ends are zero or infinity
                 along = self._of_symbol(variable) if ends else NUMBER
             self.known = {**self.known, variable: along}
             total = total * along

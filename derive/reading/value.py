@@ -13,6 +13,7 @@ from sympy.logic.boolalg import Boolean
 
 from derive.command.errors import BadText
 from derive.reading.limits import STEEPEST, fault
+from derive.reading.relation import Relation
 from derive.reading.text import Call, Node, Tree, column
 from derive.reading.words import refusal
 
@@ -21,8 +22,6 @@ _OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     **{"**": operator.pow, "both": operator.and_, "either": operator.or_},
     **{"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge},
 }
-_MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
-"""The same comparisons with their sides exchanged."""
 
 
 def _is_steep(exponent: Expr) -> bool:
@@ -53,8 +52,8 @@ class Meaning:
                 return self.step(node, operator.neg, self.value(inner))
             case Branch("prefixed", ["+", inner]):
                 return self.value(inner)
-            case Branch("operation"):
-                return self._operations(node)
+            case Branch("operation", [first, *others]):
+                return self._operations(first, others)
             case Branch("call", ["Piecewise", *_]):
                 return self._piecewise(node)
             case Branch("call", [name, *_]):
@@ -72,16 +71,10 @@ class Meaning:
         function = self.tree.words.functions[name].of_sympy
         return self.step(node, function, *map(self.value, node.children[1:]))
 
-    def _operations(self, node: Node) -> Expr:
+    def _operations(self, first: Node, others: Sequence[Node]) -> Expr:
         """The value of a chain of operations, from left to right."""
-        chain = list[Node]()
-        while isinstance(node, Branch) and node.data == "operation":
-            _, *after = node.children
-            chain += reversed(after)
-            node = node.children[0]
-        result = self.value(node)
-        while chain:
-            sign, operand = chain.pop(), self.value(chain.pop())
+        result = self.value(first)
+        for sign, operand in zip(others[::2], map(self.value, others[1::2]), strict=True):
             if sign == "**" and _is_steep(operand):
                 why = "the exponent is too large"
                 raise self.refusal(sign, why, f"use exponents up to {STEEPEST}")
@@ -122,7 +115,7 @@ class Meaning:
                 if not self.tree.names(right):
                     why = "this compares two constants"
                     raise self.refusal(at, why, "compare x with a position")
-                order, left, right = _MIRRORED[order], right, left
+                order, left, right = Relation(order).turned, right, left
             found.append(self.step(at, _OPERATORS[order], self.value(left), self.value(right)))
         return reduce(operator.and_, found)
 

@@ -43,15 +43,6 @@ class Function:
     most: int = 1
     least: int = 1
 
-    @property
-    def number(self) -> str:
-        """The number of arguments, in words."""
-        if self.most == 1:
-            return "one argument"
-        if self.most in (self.least, MANY):
-            return f"{'at most ' * (self.most == MANY)}{self.most} arguments"
-        return f"{self.least} to {self.most}"
-
 
 def _zeros(kind: str, *of: Callable[..., Expr]) -> Callable[..., Switches]:
     """Return the switches of one kind, from expressions of the arguments."""

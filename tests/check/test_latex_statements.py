@@ -142,7 +142,7 @@ y = \sin x y :: the end of the function's argument is unclear
 y = 2P/\pi a :: whether this belongs to the denominator
 y = \sum_{k=1}^3 k a + b :: whether this belongs to the sum or limit before it, at `+ b`
 y = \lim_{x \to 0} x + 1 :: whether this belongs to the sum or limit before it, at `+ 1`
-y = \sin(a, b) :: sin takes one argument
+y = \sin(a, b) :: sin takes 1 argument
 y = \sin + a :: complete it as in \sin(a)
 y = \sum_k a :: complete it as in \sum_{k=1}^{n} k
 y = \frac{d}{dx} p(x) :: at `d}{dx} p(x)`
