@@ -14,7 +14,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from itertools import groupby
 from typing import Any
 
 from lark import Lark, UnexpectedToken
@@ -24,7 +23,6 @@ from derive.reading.typed import transformer
 
 _LONGEST = 2000
 """The largest number of characters in an equation."""
-_RELATIONS = frozenset(("EQUAL", "ORDER", "ROUGH", "NE", "TO"))
 
 
 @dataclass(frozen=True)
@@ -53,10 +51,10 @@ class Latex:
             if (count := len(plain(tokens))) > _LONGEST:
                 why = f"this has {count} characters, and at most {_LONGEST} are read"
                 raise Unclear(tokens[0].at, why, "split it, or shorten it with new symbols")
-            for token in _terminals(tokens, self.spellings):
+            for token in _joined(tokens, self.spellings):
                 type_ = _literals().get(token.type, token.type)
                 parser.feed_token(token._replace(type=type_))  # type: ignore[arg-type]
-            return str(parser.feed_eof())  # type: ignore[no-untyped-call]
+            return f"{parser.feed_eof()}"  # type: ignore[no-untyped-call]
         except UnexpectedToken as error:
             token = Token("$END", "", len(self.text))
             token = error.token if isinstance(error.token, Token) else token
@@ -79,17 +77,7 @@ def _literals() -> Mapping[str, str]:
     return {"{": "LBRACE", **{str(each.pattern.value): each.name for each in _parser().terminals}}
 
 
-# ------------------------------------------------------------------ terminals
-
-
-def _terminals(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterator[Token]:
-    """Join the tokens of every symbol on each side of the relations."""
-    for is_side, part in groupby(tokens, lambda t: bool(t.depth) or t.type not in _RELATIONS):
-        found = list(part)
-        yield from _of_side(found, spellings) if is_side else found
-
-
-def _of_side(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterator[Token]:
+def _joined(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterator[Token]:
     """Join the tokens of every symbol."""
     bound, texts, kinds = _bound(tokens), [t.text for t in tokens], [t.type for t in tokens]
     position, cuts = 0, {_cut(each): name for each, name in spellings.items()}
@@ -98,10 +86,10 @@ def _of_side(tokens: Sequence[Token], spellings: Mapping[str, str]) -> Iterator[
         found = [cut for cut in cuts if tuple(texts[position : position + len(cut)]) == cut]
         cut = max(found, key=len, default=())
         if cut:
-            if "LIM" in kinds and kinds[position - 1] == "TO" and {"+", "-"} & {*cut[-2:]}:
+            if "TO" in kinds[:position] and {"+", "-"} & {*cut[-2:]}:
                 why = "a limit from one side is not read"
                 raise Unclear(token.at, why, "write the claim with `as`, or as text")
-            if "SUM" in kinds and _bound(tokens, ("SUM",)) & {*cut[1:]}:
+            if _bound(tokens, ("SUM",)) & {*cut[1:]}:
                 why = (
                     f"{plain(tokens[position : position + len(cut)])} differs in each term of a sum"
                 )

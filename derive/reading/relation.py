@@ -24,17 +24,9 @@ class Relation(StrEnum):
     @property
     def is_ordered(self) -> bool:
         """Whether the relation is an inequality."""
-        return self in _TURNED
+        return self[0] in "<>"
 
     @property
     def turned(self) -> "Relation":
         """The opposite inequality, with the same strictness."""
-        return _TURNED[self]
-
-
-_TURNED = {
-    Relation.BELOW: Relation.ABOVE,
-    Relation.ABOVE: Relation.BELOW,
-    Relation.AT_MOST: Relation.AT_LEAST,
-    Relation.AT_LEAST: Relation.AT_MOST,
-}
+        return Relation(self.translate(str.maketrans("<>", "><")))

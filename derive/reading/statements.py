@@ -212,9 +212,8 @@ def _with_condition(piece: Sequence[Token]) -> Statement:
 def _chain(entry: Statement) -> Iterator[Statement]:
     """Yield the statements of a chain of relations; equal sides are compared with the first."""
     cuts = [n for n, t in enumerate(entry.tokens) if not t.depth and t.type in RELATIONS]
-    conditions = [one for each in entry.conditions for one in _one_sided(each)]
     if entry.why or not cuts:
-        yield Statement(entry.tokens, conditions, entry.why or _alone(entry.tokens))
+        yield Statement(entry.tokens, entry.conditions, entry.why or _alone(entry.tokens))
         return
     between = [entry.tokens[n] for n in cuts]
     ends = zip([-1, *cuts], [*cuts, len(entry.tokens)], strict=True)
@@ -237,18 +236,7 @@ def _chain(entry: Statement) -> Iterator[Statement]:
         if relation.type not in ("EQUAL", "ROUGH", "ORDER"):
             why = f"{relation.text} does not form an equation: write it as a condition or limit"
             why += " of the other claims, or the equation with = or \\sim"
-        yield Statement([*left, relation, *right], conditions, why, order, small)
-
-
-def _one_sided(condition: list[Token]) -> list[list[Token]]:
-    r"""Write s \to 0^+ as s \to 0, s > 0."""
-    kinds, text = [each.type for each in condition], " ".join(each.text for each in condition)
-    end = re.search(r" [_^] (?:\{ ([+-]) \}|([+-]))$", text)
-    if "TO" not in kinds or not end:
-        return [condition]
-    at, cut = kinds.index("TO"), len(condition) - len(end[0].split())
-    sign = Token("ORDER", ">" if "+" in end[0] else "<", condition[at].at)
-    return [condition[:cut], [*condition[:at], sign, *condition[at + 1 : cut]]]
+        yield Statement([*left, relation, *right], entry.conditions, why, order, small)
 
 
 _REMAINDER = re.compile(

@@ -32,6 +32,8 @@ _TEMPLATES = {
     "nth_root": ("power", "{2:atom}**(1/{1:power})"),
     "euler": ("atom", "exp(1)"),
     "exponential": ("atom", "exp({2})"),
+    "equation": ("", "{0} {1} {2}"),
+    "approach": ("", "{0} -> {2}"),
     "integral": ("atom", "{0}({2}, {4}, {1[0]}, {1[1]})"),
     "series": ("atom", "sum({7}, {2}, {4}, {6})"),
     "limit": ("atom", "limit({5}, {2}, {4})"),
@@ -49,7 +51,7 @@ class _Code:
     """A piece of typed text.
 
     level    its precedence
-    kind     the terminal with which its last factor begins
+    type     the terminal with which its last factor begins
     at       the place of this factor
     size     the number of tokens of a number or a symbol
     is_one   whether it is one factor
@@ -61,7 +63,7 @@ class _Code:
 
     text: str
     level: str
-    kind: str
+    type: str
     at: int
     size: int = 1
     is_one: bool = True
@@ -80,8 +82,8 @@ class _Code:
             raise _unclear_argument(at, *(each.format(following) for each in self.unclear))
 
 
-Argument = tuple[str, list[str], int]
-"""An argument of a function: how its end is shown, its text in parts, and a place in it."""
+Argument = tuple[str, str, str, int]
+"""An argument of a function: how its end is shown, the first factor, the others, their place."""
 
 
 @v_args(inline=True)
@@ -93,12 +95,6 @@ class _Typed(Transformer[Any, Any]):
         if rule in _TEMPLATES:
             return lambda parts: _from_template(rule, *parts)
         raise AttributeError(rule)
-
-    def equation(self, left: _Code, relation: Token, right: _Code) -> str:
-        return f"{left} {typed(relation)} {right}"
-
-    def approach(self, left: _Code, _: Token, right: _Code) -> str:
-        return f"{left} -> {right}"
 
     def conditions(self, *parts: Any) -> str:
         joints = {each.type for each in parts if isinstance(each, Token)}
@@ -131,7 +127,7 @@ class _Typed(Transformer[Any, Any]):
         return replace(term, text=text, level="", is_one=False)
 
     def multiplied(self, left: _Code, operator: Token | None, right: _Code) -> _Code:
-        at, kind = (operator.at, operator.type) if operator else (right.at, right.kind)
+        at, kind = (operator.at, operator.type) if operator else (right.at, right.type)
         sign = typed(operator) if operator else "*"
         factor = f"{right:power}" if sign == "/" else f"{right:product}"
         left.demand_end(at, kind, f"{sign}{factor}")
@@ -152,8 +148,8 @@ class _Typed(Transformer[Any, Any]):
             remedy = "write \\exp(...) or \\mathrm{e}^{...}, or rename the symbol"
             raise Unclear(base.at, why, remedy)
         if (
-            base.kind == "SYMBOL"
-            and exponent.kind == "("
+            base.type == "SYMBOL"
+            and exponent.type == "("
             and exponent.is_one
             and "/" not in exponent.text
         ):
@@ -211,24 +207,24 @@ class _Typed(Transformer[Any, Any]):
             over, under, *rest = rest
             factor = f"{over:product}/{under:power}"
             kind = "group" if f"{over.text}{under.text}".isdigit() else "quotient"
-        texts = (typed(e) if isinstance(e, Token) else f"{e:product}" for e in rest)
-        return kind, [factor, *texts], rest[0].at
+        texts = (f"*{typed(e) if isinstance(e, Token) else f'{e:product}'}" for e in rest)
+        return kind, factor, "".join(texts), rest[0].at
 
     def bare(self, code: _Code) -> Argument:
-        kind = "nested" if code.kind in _FUNCTIONS else "shown" if code.kind == "LBAR" else "bare"
-        return kind, [code.text], code.at
+        kind = "nested" if code.type in _FUNCTIONS else "shown" if code.type == "LBAR" else "bare"
+        return kind, code.text, "", code.at
 
     def bracketed(self, *parts: Any) -> Argument:
-        return "shown", [each.text for each in parts[::2]], parts[-1].at
+        return "shown", ", ".join(each.text for each in parts[::2]), "", parts[-1].at
 
     def braced(self, brace: Token, *parts: Any) -> Argument:
         if any(each.level == "" for each in parts[::2]):
             why = "braces are not printed, so the end of the argument is unclear"
             raise Unclear(brace.at, why, "use parentheses")
-        return "bare", [each.text for each in parts[::2]], parts[-1].at
+        return "bare", ", ".join(each.text for each in parts[::2]), "", parts[-1].at
 
     def function(self, command: Token, *parts: Any) -> _Code:
-        base, power, exponent, (kind, texts, second) = parts
+        base, power, exponent, (kind, inside, others, second) = parts
         name, digits = typed(command), exponent.text if exponent else ""
         if digits == "-1" and f"a{name}" in FUNCTIONS:
             name, power = f"a{name}", None
@@ -236,20 +232,16 @@ class _Typed(Transformer[Any, Any]):
         if not is_power or (base and (power or command.text != r"\log")):
             why = f"this index or power of {command.text} is unclear"
             raise Unclear(command.at, why, "write \\arcsin, or a fraction, or use parentheses")
-        if FUNCTIONS[name].most > 1 and len(texts) == 1:
+        if FUNCTIONS[name].most > 1 and ", " not in inside:
             why = f"it is unclear over what {command.text} of one quantity is taken"
             raise Unclear(command.at, why, "give it a symbol of its own, as in p_{\\max}")
         circular = command.type == "CIRCULAR"
         after = (f"**{digits}" if power else "") + (f"/log({base})" if base else "")
-        if kind in ("multiple", "group", "quotient"):
-            first, inside = texts[0], "*".join(texts)
-            may_end = kind == "quotient" or (kind == "group" and name.startswith("a"))
-            if may_end or not circular:
-                rest = inside.removeprefix(first)
-                both = f"{name}({inside}){after}", f"{name}({first}){after}{rest}"
-                raise _unclear_argument(second, *both)
-            texts = [inside]
-        inside = ", ".join(texts)
+        may_end = kind == "quotient" or (kind == "group" and name.startswith("a")) or not circular
+        if others and may_end:
+            both = f"{name}({inside}{others}){after}", f"{name}({inside}){after}{others}"
+            raise _unclear_argument(second, *both)
+        inside += others
         level = "product" if base else "power" if power else "atom"
         follow = _FUNCTIONS if circular and kind != "nested" else frozenset[str]()
         follow = _AFTER_BRACKETS if kind == "shown" else follow

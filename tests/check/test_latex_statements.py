@@ -181,8 +181,7 @@ def test_what_is_not_read_and_why(latex: str, why: str, tmp_path: Path) -> None:
 
 
 CONDITIONS = r"""
-p \sim K\sqrt{s} \quad (s \to 0^+) :: as = 's -> 0', require = 's > 0'
-p \sim K\sqrt{s}, \quad s \to a^{-} :: as = 's -> a', require = 's < a'
+p \sim K\sqrt{s} \quad (s \to 0) :: as = 's -> 0'
 {\displaystyle u\approx {\frac {Q}{a}}{\text{ as }}c\to a} :: as = 'c -> a'
 e = \frac{a}{b} + O(a^2) :: as = 'a -> 0', order = 2
 a = b \quad |x| < a :: require = 'abs(x) < a'
@@ -209,6 +208,8 @@ def test_conditions_limits_and_words_are_kept(latex: str, entries: str, tmp_path
 NOT_JUDGED = r"""
 p = \frac{Qs}{L}, \quad s \ll L :: its condition s \ll L could not be read
 a = b \quad \text{otherwise} :: its condition
+p \sim K\sqrt{s} \quad (s \to 0^+) :: its condition s \to 0^+ could not be read
+p \sim K\sqrt{s}, \quad s \to a^{-} :: its condition s \to a^{-} could not be read
 a \sim b, x \to 0, c \to 1 :: it holds in several limits
 a = b + O(x^2), \quad c \to 0 :: it holds in several limits, c -> 0, x -> 0
 a = b + \ldots :: it is an approximation
