@@ -102,8 +102,6 @@ _WORDS = {
     "": "which|that|since",
 }
 _KINDS = {word: kinds.split() for kinds, words in _WORDS.items() for word in words.split("|")}
-CLAUSES = frozenset(word.split()[0] for word, kinds in _KINDS.items() if "ELSE" not in kinds)
-"""Words that start a clause."""
 _ENVIRONMENTS = {
     **dict.fromkeys(("split", "aligned", "gathered", "alignedat"), "LINES"),
     **dict.fromkeys(("cases", "dcases", "rcases", r"\{cases", r"\{dcases", r"\{array"), "BEGIN"),

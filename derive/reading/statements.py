@@ -18,7 +18,6 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby
 
 from derive.reading.lexer import (
-    CLAUSES,
     CONDITIONS,
     RELATIONS,
     Token,
@@ -185,15 +184,11 @@ def _without_remarks(joint: str, piece: Sequence[Token]) -> Iterator[tuple[str, 
 
 
 def _belongs(piece: Sequence[Token], at: int, before: Sequence[Token]) -> bool:
-    """Whether words may be a unit, or another part of the formula beside them."""
-    words, beside = piece[at].words, piece[at + 1 : at + 2]
-    if not before:
-        is_alone = not beside or beside[0].type in _BREAKS
-        return not (is_alone or words.endswith(":") or " " in words)
-    if words.startswith("(") or words.split()[0].lower() in CLAUSES:
-        return False
-    is_near = piece[at - 1].type not in _BREAKS or before[-1].text == "}"
-    return before[-1].type == "NUMBER" or (" " not in words and is_near)
+    """Whether words may be a unit, or stand beside the formula without a wide space."""
+    beside = [*piece[max(at - 1, 0) : at], *piece[at + 1 : at + 2]]
+    is_apart = all(each.type in (*_BREAKS, "TEXT", ".") for each in beside)
+    last, is_word = (*before[-1:], Token("", "", 0))[0], " " not in piece[at].words
+    return not is_apart or last.type == "NUMBER" or (last.text == "}" and is_word)
 
 
 def _with_condition(piece: Sequence[Token]) -> Statement:
@@ -218,7 +213,7 @@ def _chain(entry: Statement) -> Iterator[Statement]:
     between = [entry.tokens[n] for n in cuts]
     ends = zip([-1, *cuts], [*cuts, len(entry.tokens)], strict=True)
     sides = [entry.tokens[start + 1 : end] for start, end in ends]
-    words, first = [each for each in entry.tokens[-1:] if each.type == "TEXT"], 0
+    words, first = [each for each in entry.tokens if each.type == "TEXT" and not each.depth], 0
     for n, relation in enumerate(between):
         if n and not (relation.type == "EQUAL" == between[n - 1].type):
             first = n
@@ -230,8 +225,9 @@ def _chain(entry: Statement) -> Iterator[Statement]:
             relation = relation._replace(type="ROUGH", text=r"\sim")
         elif relation.type == "ORDER":
             right, order, small = sides[n + 1], 0.0, ""
-        if not any(each.type in ("TEXT", "LETTER") for each in right):
-            right = [*right, *words]  # numbers with a unit are an example
+        kinds = {each.type for each in right}
+        if "TEXT" not in kinds and ("LETTER" not in kinds or words != entry.tokens[-1:]):
+            right = [*right, *words]  # such as the unit of a number
         why = ""
         if relation.type not in ("EQUAL", "ROUGH", "ORDER"):
             why = f"{relation.text} does not form an equation: write it as a condition or limit"

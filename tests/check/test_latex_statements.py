@@ -128,6 +128,8 @@ NOT_READ = r"""
 p_0 = 2\times10^{3}\quad\mathrm{MPa} :: the words 'MPa' are not understood
 \operatorname{div} u = 0 :: the words 'div' are not understood
 a = 5\,\mathrm{N}/\mathrm{m} :: the words 'N' are not understood
+a = b \text{ unless } x = c ::  the words 'unless' are not understood
+a = b \text{ in plane strain} :: the words 'in plane strain' are not understood
 a = b, c, d = e :: c stands without a relation
 y = 1{,}500 a :: cannot be read from here on
 P = c [1 + O(a/R)] :: only understood as the last term
@@ -395,3 +397,8 @@ def test_the_condition_of_a_display_is_not_forgotten(tmp_path: Path) -> None:
     assert "also says a > 1" in claim.unchecked
     path.write_text(f"{text}require = 'a > 1'\n")
     assert check(read_claims(path).claims[0]).judged.good
+
+
+def test_no_statement_of_a_chain_with_words_inside_is_read(tmp_path: Path) -> None:
+    found = claims(tmp_path, r"\[ a = b \text{ unless } x = c \]")
+    assert len(found) == 2 and not any("understood" in each for each in found)
