@@ -91,15 +91,11 @@ def proper(expr: Any) -> Any:
 
 
 def _proper(node: Expr) -> Expr:
+    """Write an integral to infinity from 0 to 1, and fold a principal value about its pole."""
     inside, along, low, *high = node.args
     if isinstance(node, ToInfinity):
         moved = low + along / (1 - along)
         return Integral(inside.subs(along, moved) / (1 - along) ** 2, (along, 0, 1))
-    return _folded(inside, along, low, *high)
-
-
-def _folded(inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
-    """Write a principal value as the integrand folded about its pole, plus the remainder."""
     poles = set[Expr]()
     for factor in Mul.make_args(denom(together(inside))):
         if factor.is_polynomial(along) and factor.has(along) and degree(factor, along) == 1:
@@ -109,7 +105,7 @@ def _folded(inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
         text = str(inside)
         remedy = "write its denominator with one factor such as s - x"
         raise NoPole("a principal value", text, 0, why, remedy)
-    (pole,) = poles
+    (pole,), (high,) = poles, high
     distance = Symbol(along.name + FROM_POLE, real=True)
     reach = Min(pole - low, high - pole)  # the nearer end
     both = inside.subs(along, pole + distance) + inside.subs(along, pole - distance)

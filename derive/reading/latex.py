@@ -19,7 +19,7 @@ from typing import Any
 from lark import Lark, UnexpectedToken
 
 from derive.reading.lexer import GREEK, Token, Unclear, plain, refusal, scan, tokens_of
-from derive.reading.typed import transformer
+from derive.reading.typed import TYPED
 
 _LONGEST = 2000
 """The largest number of characters in an equation."""
@@ -68,7 +68,7 @@ class Latex:
 def _parser() -> Lark:
     grammar = (files("derive.reading") / "latex.lark").read_text(encoding="utf-8")
     starts = ["equation", "conditions", "approach"]
-    return Lark(grammar, parser="lalr", lexer="basic", start=starts, transformer=transformer())
+    return Lark(grammar, parser="lalr", lexer="basic", start=starts, transformer=TYPED)
 
 
 @cache

@@ -114,6 +114,8 @@ CONDITIONS = frozenset(("ORDER", "TO", "NE", "RELATED"))
 RELATIONS = CONDITIONS | {"EQUAL", "ROUGH", "PROPTO"}
 _AROUND = frozenset(("{", "BEGIN", "FRAME"))
 """Brackets and environments that say nothing if they enclose all of a display."""
+_FEW = 20
+"""The largest number of tokens in a script before words in it."""
 _UNITS = frozenset("gmsJNW")
 """Units of one letter.  K may be an elliptic integral."""
 
@@ -261,7 +263,7 @@ def _worded(
     inner, at, letters = words.strip(), match.start(), scan(match.string, *span)
     if before and before[-1].text in ("_", "^"):
         return [Token("{", "{", at), *letters, Token("}", "}", at)]
-    if _in_script(before):
+    if re.search(r"[_^] \{[^{}]*$", " ".join(each.text for each in before[-_FEW:])):
         return letters
     if inner in _UPRIGHT and font not in ("mathit", "textit", "mathbf"):
         return [Token(*_TABLE[_UPRIGHT[inner]], at)]
@@ -274,16 +276,6 @@ def _worded(
     return [Token(kind, rf"\{kind.lower()}", at) for kind in kinds] or [
         Token("TEXT", rf"\text{{{word}}}", at)
     ]
-
-
-def _in_script(before: list[Token]) -> bool:
-    """Whether the next token is in the braces of an exponent or an index."""
-    depth = 0
-    for n in range(len(before) - 1, 0, -1):
-        depth += (before[n].text == "}") - (before[n].text == "{")
-        if depth < 0:
-            return before[n - 1].text in ("^", "_")
-    return False
 
 
 _READERS: Mapping[str, Callable[[re.Match[str], list[Token]], list[Token]]] = {

@@ -25,15 +25,12 @@ def fault(expr: Expr) -> str:
         return "is not finite"
     if expr.has(I) or expr.is_extended_real is False:
         return "is not real"
-    if any(_bits(number) > _LONGEST for number in expr.atoms(Rational)) or _is_too_large(expr):
+    numbers = [int(part) for each in expr.atoms(Rational) for part in (each.p, each.q)]
+    if any(part.bit_length() > _LONGEST for part in numbers) or _is_too_large(expr):
         return "contains a nonzero number whose magnitude is above 1e100 or below 1e-100"
     if terms(expr) > MOST_TERMS:
         return f"has powers above {STEEPEST} or more than {MOST_TERMS} terms when expanded"
     return ""
-
-
-def _bits(number: Rational) -> int:
-    return max(int(number.p).bit_length(), int(number.q).bit_length())
 
 
 def _is_too_large(expr: Expr) -> bool:

@@ -147,12 +147,7 @@ class _Typed(Transformer[Any, Any]):
             why = "it is unclear whether e is a symbol here"
             remedy = "write \\exp(...) or \\mathrm{e}^{...}, or rename the symbol"
             raise Unclear(base.at, why, remedy)
-        if (
-            base.type == "SYMBOL"
-            and exponent.type == "("
-            and exponent.is_one
-            and "/" not in exponent.text
-        ):
+        if base.type == "SYMBOL" and exponent.type == "(" and exponent.is_one:
             why = "it is unclear whether the parentheses hold an exponent or an index"
             raise Unclear(exponent.at, why, "write the exponent without them, or rename the symbol")
         return replace(base, text=f"{base:atom}**{exponent:atom}", level="power")
@@ -268,6 +263,5 @@ def typed(token: Token) -> str:
     return _TYPED.get(token.text, token.text.removeprefix("\\"))
 
 
-def transformer() -> Transformer[Any, Any]:
-    """Return what the parser calls for each rule."""
-    return _Typed()
+TYPED: Transformer[Any, Any] = _Typed()
+"""What the parser calls for each rule."""
