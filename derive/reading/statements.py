@@ -30,7 +30,7 @@ from derive.reading.lexer import (
 
 _MOST = 20_000
 """The largest number of characters in a display."""
-_JOINTS = ("WHERE", "OR", "IMPLIES", "IFF")
+_JOINTS = ("WHERE", "IMPLIES", "IFF")
 """Tokens that say how they join two entries of a display; others only divide them."""
 
 
@@ -60,14 +60,6 @@ class Statement:
     def is_rough(self) -> bool:
         """Whether it is an approximation."""
         return "ROUGH" in self.relations
-
-    def require(self, condition: list[Token], joint: str) -> None:
-        """Add a condition; those that are joined by "or" are one."""
-        if self.conditions and (joint == "OR" or any(t.type == "OR" for t in self.conditions[-1])):
-            link = Token(joint if joint == "OR" else "COMMA", ",", condition[0].at)
-            self.conditions[-1] += [link, *condition]
-        else:
-            self.conditions.append(condition)
 
 
 def statements(where: str, latex: str) -> list[Statement]:
@@ -109,9 +101,9 @@ def _entries(tokens: Sequence[Token]) -> list[Statement]:
             may_have = not _bounds_position(last.tokens)
         if joint == "WHERE":
             made = made or [Statement([])]
-            made[-1].require(piece, joint)
+            made[-1].conditions.append(piece)
         elif may_have and kinds and kinds <= CONDITIONS and joint not in ("IMPLIES", "IFF"):
-            last.require(piece, joint)
+            last.conditions.append(piece)
         elif made and not (kinds and last.relations):
             last.why = last.why or _alone(piece if last.relations else last.tokens)
             last.tokens = [*last.tokens, Token("COMMA", ",", piece[0].at), *piece]
