@@ -17,7 +17,8 @@ from derive.codegen.module import formatted
 from derive.command.errors import BadName, BadProfile, BadUnit, UserError
 from derive.command.options import bad_option
 from derive.command.processes import Bounds, Report, in_processes, silent
-from derive.reading.profile import read, tree_of, value
+from derive.reading.profile import OF_PROFILES, read
+from derive.reading.text import parse
 from derive.reading.units import units_of_profile
 from derive.reading.words import refusal
 from derive.symbols import RESERVED, x
@@ -77,8 +78,7 @@ def new_geometry(wanted: Wanted, report: Report = silent) -> tuple[Geometry, str
     """
     report(f"g of {wanted.name!r}", "reading g(x)")
     _demand_name(wanted.name)
-    tree = tree_of(wanted.profile)
-    names = tree.names()
+    names = parse(wanted.profile, OF_PROFILES).names()
     has_x = names.pop("x", None) is not None
     for option, given in (("--unit", wanted.units), ("--meaning", wanted.meanings)):
         for name, text in given.items():
@@ -97,7 +97,7 @@ def new_geometry(wanted: Wanted, report: Report = silent) -> tuple[Geometry, str
         raise BadProfile(wanted.name, why, "replace some of them by numbers")
     symbols = _symbols(wanted, names)
     try:
-        geometry = Geometry(wanted.name, g=value(tree, symbols))
+        geometry = Geometry(wanted.name, g=read(wanted.profile, symbols))
         return geometry, _text(wanted, geometry, symbols.values())
     except UserError:
         raise

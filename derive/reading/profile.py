@@ -6,7 +6,7 @@ from sympy import Expr, Symbol
 
 from derive.body.geometry import parameter
 from derive.command.errors import BadName
-from derive.reading.text import Tree, parse
+from derive.reading.text import parse
 from derive.reading.value import Meaning
 from derive.reading.words import FUNCTIONS_OF_PROFILES, Words
 from derive.symbols import x
@@ -15,25 +15,18 @@ _OF_THE_FILE = frozenset({"Geometry", "geometry", "parameter", "Rational"})
 """Names that the geometry file itself uses."""
 
 
-def read(text: str) -> Expr:
-    """The SymPy expression of g(x), with a plain positive symbol for each parameter.
+def read(text: str, symbols: Mapping[str, Symbol] | None = None) -> Expr:
+    """The SymPy expression of g(x).
+
+    symbols: the symbol of each parameter; by default a plain positive one
 
     Raises BadText.
 
     >>> read("abs(x)**1.5 / sqrt(R)")
     Abs(x)**(3/2)/sqrt(R)
     """
-    tree = tree_of(text)
-    return value(tree, {name: Symbol(name, positive=True) for name in tree.names()})
-
-
-def tree_of(text: str) -> Tree:
-    """The tree of g(x); raises BadText."""
-    return parse(text, OF_PROFILES)
-
-
-def value(tree: Tree, symbols: Mapping[str, Symbol]) -> Expr:
-    """The expression of g(x) with the given symbols for its parameters; raises BadText."""
+    tree = parse(text, OF_PROFILES)
+    symbols = symbols or {name: Symbol(name, positive=True) for name in tree.names()}
     return Meaning(tree, {**symbols, "x": x}).value(tree.root)
 
 

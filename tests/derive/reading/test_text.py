@@ -26,8 +26,8 @@ from sympy import (
 from derive.command.errors import BadText
 from derive.command.new_geometry import _Exact
 from derive.reading.limits import LARGEST, MOST_TERMS, STEEPEST, terms
-from derive.reading.profile import OF_PROFILES, read, tree_of
-from derive.reading.text import LONGEST
+from derive.reading.profile import OF_PROFILES, read
+from derive.reading.text import LONGEST, parse
 from derive.reading.words import ALLOWED, FUNCTIONS
 from derive.symbols import x
 
@@ -68,7 +68,7 @@ def test_a_text_is_read_as_what_it_says(text: str) -> None:
 
 
 def test_names_come_in_the_order_of_the_text() -> None:
-    names = tree_of("phi*Abs(x - b) + x**2/R + phi").names()
+    names = parse("phi*Abs(x - b) + x**2/R + phi", OF_PROFILES).names()
     assert names == {"phi": 0, "x": 8, "b": 12, "R": 22}
 
 
