@@ -21,10 +21,6 @@ Switches = list[tuple[str, Expr]]
 """Expressions at whose zeros a function is not smooth, each with its kind in derive.proof.kinks."""
 
 
-def _smooth(*_: Expr) -> Switches:
-    return []
-
-
 @dataclass(frozen=True)
 class Function:
     """A function that may be called.
@@ -38,7 +34,7 @@ class Function:
 
     of_sympy: Callable[..., Any]
     latex: str = ""
-    switches: Callable[..., Switches] = _smooth
+    switches: Callable[..., Switches] = lambda *_: []
     like: str = ""
     most: int = 1
     least: int = 1
@@ -66,14 +62,6 @@ _AT_ONE = _zeros("branch", lambda argument: argument - 1)
 _AT_BOTH = (lambda argument: 1 + argument, lambda argument: 1 - argument)
 
 
-def _one_over(function: Callable[[Expr], Expr]) -> Callable[[Expr], Expr]:
-    return lambda angle: 1 / function(angle)
-
-
-def _of_one_over(function: Callable[[Expr], Expr]) -> Callable[[Expr], Expr]:
-    return lambda ratio: function(1 / ratio)
-
-
 _OF_PROFILES = {
     "Abs": Function(sympy.Abs, switches=_KINK),
     "sqrt": Function(sympy.sqrt),
@@ -98,17 +86,17 @@ _OF_PROFILES = {
     "atanh": Function(sympy.atanh, r"\artanh", _zeros("branch", *_AT_BOTH), "inverse hyperbolic"),
 }
 _OF_CLAIMS = {
-    "cot": Function(_one_over(sympy.tan), r"\cot \ctg", like="reciprocal circular"),
-    "sec": Function(_one_over(sympy.cos), r"\sec", like="reciprocal circular"),
-    "csc": Function(_one_over(sympy.sin), r"\csc \cosec", like="reciprocal circular"),
-    "asec": Function(_of_one_over(sympy.acos), r"\arcsec", like="reciprocal circular"),
-    "acsc": Function(_of_one_over(sympy.asin), r"\arccsc", like="reciprocal circular"),
-    "coth": Function(_one_over(sympy.tanh), r"\coth", like="reciprocal hyperbolic"),
-    "sech": Function(_one_over(sympy.cosh), r"\sech", like="reciprocal hyperbolic"),
-    "csch": Function(_one_over(sympy.sinh), r"\csch \cosech", like="reciprocal hyperbolic"),
-    "acoth": Function(_of_one_over(sympy.atanh), r"\arcoth", like="reciprocal hyperbolic"),
-    "asech": Function(_of_one_over(sympy.acosh), r"\arsech", like="reciprocal hyperbolic"),
-    "acsch": Function(_of_one_over(sympy.asinh), r"\arcsch", like="reciprocal hyperbolic"),
+    "cot": Function(lambda z: 1 / sympy.tan(z), r"\cot \ctg", like="reciprocal circular"),
+    "sec": Function(lambda z: 1 / sympy.cos(z), r"\sec", like="reciprocal circular"),
+    "csc": Function(lambda z: 1 / sympy.sin(z), r"\csc \cosec", like="reciprocal circular"),
+    "asec": Function(lambda z: sympy.acos(1 / z), r"\arcsec", like="reciprocal circular"),
+    "acsc": Function(lambda z: sympy.asin(1 / z), r"\arccsc", like="reciprocal circular"),
+    "coth": Function(lambda z: 1 / sympy.tanh(z), r"\coth", like="reciprocal hyperbolic"),
+    "sech": Function(lambda z: 1 / sympy.cosh(z), r"\sech", like="reciprocal hyperbolic"),
+    "csch": Function(lambda z: 1 / sympy.sinh(z), r"\csch \cosech", like="reciprocal hyperbolic"),
+    "acoth": Function(lambda z: sympy.atanh(1 / z), r"\arcoth", like="reciprocal hyperbolic"),
+    "asech": Function(lambda z: sympy.acosh(1 / z), r"\arsech", like="reciprocal hyperbolic"),
+    "acsch": Function(lambda z: sympy.asinh(1 / z), r"\arcsch", like="reciprocal hyperbolic"),
     "elliptic_k": Function(sympy.elliptic_k, "", _logarithms_at_one, "elliptic"),
     "elliptic_e": Function(sympy.elliptic_e, "", _logarithms_at_one, "elliptic"),
     "elliptic_pi": Function(sympy.elliptic_pi, "", _logarithms_at_one, most=2, least=2),
