@@ -210,7 +210,10 @@ def _chain(entry: Statement) -> Iterator[Statement]:
         if n and not (relation.type == "EQUAL" == between[n - 1].type):
             first = n
         left, (right, order, small) = sides[first], _without_remainder(sides[n + 1])
-        if relation.type == "EQUAL" and right != sides[n + 1] and not order:
+        is_near = {each.type for each in between[: n + 1]} <= {"EQUAL", "ROUGH"}
+        if first and is_near and _without_remainder(left)[0] != left:
+            left, relation = sides[0], relation._replace(type="ROUGH", text=r"\sim")
+        elif relation.type == "EQUAL" and right != sides[n + 1] and not order:
             relation = relation._replace(type="ROUGH", text=r"\sim")
         elif relation.type == "ORDER":
             right, order, small = sides[n + 1], 0.0, ""

@@ -402,3 +402,9 @@ def test_the_condition_of_a_display_is_not_forgotten(tmp_path: Path) -> None:
 def test_no_statement_of_a_chain_with_words_inside_is_read(tmp_path: Path) -> None:
     found = claims(tmp_path, r"\[ a = b \text{ unless } x = c \]")
     assert len(found) == 2 and not any("understood" in each for each in found)
+
+
+def test_a_chain_with_a_remainder_goes_on_from_its_first_side(tmp_path: Path) -> None:
+    """A later equality is an approximation, too."""
+    found = claims(tmp_path, r"\[ q \simeq f [b + \ldots] = c \]")
+    assert [each["understood"] for each in found] == ["q ~ f*b", "q ~ c"]
