@@ -74,6 +74,11 @@ class Basis(StrEnum):
         """The same in short, for tables."""
         return ", ".join(each.split()[-1] for each in self.split(" and "))
 
+    @property
+    def parts(self) -> list[str]:
+        """The same for programs; mathematics alone has no parts."""
+        return [part for part in ("body", "definition", "given") if part in self]
+
 
 @dataclass(frozen=True)
 class AsMeant:

@@ -27,9 +27,6 @@ _DRAWN = 6
 """Number of points among which this point is sought."""
 _LARGEST = 2
 """The largest power in a factor that may be lost."""
-_FIRSTS = 12
-"""The largest number of first changes that are combined with a second one."""
-
 
 _NOT_YET = Judged(Verdict.UNCHECKED, "")
 
@@ -138,9 +135,9 @@ def _batches(printed: Sides) -> Iterator[Iterable[Repair]]:
     """Yield changes of which the simplest true one is chosen, batch by batch.
 
     An inequality may be an equation, or the opposite inequality.  For an equation, single changes
-    come first, and then the factor by which the sides differ.  If none of them is sufficient, pairs
-    of changes are tried.  If each trial is slow, changes of a whole side are tried first, and then
-    single changes, kind by kind; near a limit, they are compared with each other.
+    come first, and then the factor by which the sides differ.  If each trial is slow, changes of a
+    whole side are tried first, and then the others, kind by kind; near a limit, they are compared
+    with each other.
     """
     claim = printed.claim
     if claim.meant.is_inequality:
@@ -148,7 +145,7 @@ def _batches(printed: Sides) -> Iterator[Iterable[Repair]]:
         return
     single, factors = _single(claim), _scaled(printed)
     if claim.meant.toward is None and not has_integral(claim):
-        yield from (single, factors, _double(claim))
+        yield from (single, factors)
         return
     every = list(single)
     first = [each for each in every if each.change.endswith(WHOLE) or each.kind == "limit"]
@@ -158,7 +155,6 @@ def _batches(printed: Sides) -> Iterator[Iterable[Repair]]:
         return
     yield from (first, factors)
     yield from ((each for each in in_part if each.kind == kind) for kind in KINDS)
-    yield _double(claim)
 
 
 def _other_relations(claim: Claim) -> Iterator[Repair]:
@@ -241,13 +237,3 @@ def _may_be_lost(claim: Claim, powers: Expr) -> bool:
     is_one = len(powers.free_symbols) == 1 or powers.free_symbols <= claim.meant.right.free_symbols
     is_needed = bool(claim.units) or claim.meant.basis == Basis.BODY
     return is_needed and is_one and len(sizes) == 1 and max(sizes) <= _LARGEST
-
-
-def _double(claim: Claim) -> Iterator[Repair]:
-    """Yield pairs of changes of the right side, of which the first is a sign or a swap."""
-    names = _names(claim, swaps_on_right(claim), claim.meant.left)
-    firsts = (e for e in edits(claim.meant.right, names, plain=True) if e.kind in ("sign", "swap"))
-    for first in islice(firsts, _FIRSTS):
-        for second in edits(first.expr, names, plain=True):
-            what = f"{first.what} and {second.kind} {second.what}"
-            yield _changed(claim, claim.meant.left, second.expr, first.kind, what)

@@ -119,13 +119,10 @@ def swappable(
     return Names(swaps, units, fits)
 
 
-def edits(expr: Expr, names: Names | None = None, plain: bool = False) -> Iterator[Edit]:
-    """Yield all changes of one side; each differs from `expr` and from all others.
-
-    plain: whether only signs, names and factors of a whole side are changed
-    """
+def edits(expr: Expr, names: Names | None = None) -> Iterator[Edit]:
+    """Yield all changes of one side; each differs from `expr` and from all others."""
     seen, names = {expr}, names or Names()
-    for kind, places, changes in _RULES[: _PLAIN if plain else None]:
+    for kind, places, changes in _RULES:
         for place in places(expr):
             for what, other in changes(place, names):
                 changed = place.put(expr, other)
@@ -346,5 +343,3 @@ _RULES: tuple[tuple[str, _Places, Callable[[Place, Names], _Changed]], ...] = (
     ),
     ("limit", _ends, _other_end),
 )
-_PLAIN = 3
-"""Number of rules for changes that are tried in pairs."""

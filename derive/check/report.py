@@ -327,7 +327,7 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
             "says": finding.claim.entry.says,
             "verdict": str(finding.verdict),
             "expected": finding.as_expected,
-            "rests_on": finding.basis,
+            "rests_on": finding.basis.parts if finding.basis else [],
             "coverage": covered(finding),
             "symbols": finding.claim.symbols,
             "meanings": finding.claim.words,

@@ -428,24 +428,32 @@ TWICE = 'symbols = { R = "2*R" }'
 @pytest.mark.parametrize(
     ("printed", "more", "rests_on"),
     [
-        ("P = pi*E_star*a**2/(4*R)", "", "the body"),
-        ("P = integral(pressure(s, a, a), s, -a, a)", "", "the body"),
-        ("load(c, c) = k**2*P", "", "the body"),
-        ("P > 0", "", "the body"),
-        ("sqrt(P**2) = P", "", "the body"),
-        ("P < 10**20*E_star*(R + a)*a/R", "", "the body"),
-        ("P**2 >= 0", "", "your definitions"),
-        ("P = load(2*a/2, a)", "", "your definitions"),
-        ("c**2 = a**2*k**2", "", "your definitions"),
-        ("p_0 = 3*P/(2*pi*a)", "", "the body"),  # false
-        ("E_star*(R + a) = E_star*R + E_star*a", "", "mathematics"),
-        ("P = Z", "", None),
-        ("P = pi*E_star*a**2/(2*R)", TWICE, "the body and your definitions"),
-        ("P = pi*E_star*a**2/(4*R)", TWICE, "the body and your definitions"),  # false
-        ("c**2*P = a**2*load(c, c)", TWICE, "the body"),  # R is not used
+        ("P = pi*E_star*a**2/(4*R)", "", ["body"]),
+        ("P = integral(pressure(s, a, a), s, -a, a)", "", ["body"]),
+        ("load(c, c) = k**2*P", "", ["body"]),
+        ("P > 0", "", ["body"]),
+        ("sqrt(P**2) = P", "", ["body"]),
+        ("P < 10**20*E_star*(R + a)*a/R", "", ["body"]),
+        ("P**2 >= 0", "", ["definition"]),
+        ("P = load(2*a/2, a)", "", ["definition"]),
+        ("c**2 = a**2*k**2", "", ["definition"]),
+        ("p_0 = 3*P/(2*pi*a)", "", ["body"]),  # false
+        ("E_star*(R + a) = E_star*R + E_star*a", "", []),
+        ("P = Z", "", []),  # unchecked
+        ("P = pi*E_star*a**2/(2*R)", TWICE, ["body", "definition"]),
+        ("P = pi*E_star*a**2/(4*R)", TWICE, ["body", "definition"]),  # false
+        ("c**2*P = a**2*load(c, c)", TWICE, ["body"]),  # R is not used
     ],
 )
 def test_a_verdict_says_what_it_rests_on(
-    tmp_path: Path, printed: str, more: str, rests_on: str | None
+    tmp_path: Path, printed: str, more: str, rests_on: list[str]
 ) -> None:
-    assert asking.judged(tmp_path, HERTZ + asking.claim(printed, more)).basis == rests_on
+    (it,) = asking.told(tmp_path, HERTZ + asking.claim(printed, more))
+    assert it["rests_on"] == rests_on
+
+
+def test_a_verdict_rests_on_what_is_given(tmp_path: Path) -> None:
+    given = '[[claims]]\nlabel = "(1)"\nprinted = "P = pi*E_star*a**2/(4*R)"\n'
+    more = 'given = ["(1)"]'
+    _, it = asking.told(tmp_path, HERTZ + given + asking.claim("2*P = pi*E_star*a**2/(2*R)", more))
+    assert (it["verdict"], it["rests_on"]) == ("holds", ["given"])
