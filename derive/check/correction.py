@@ -15,7 +15,7 @@ from derive.check.claim import Basis, Claim, Verdict
 from derive.check.diagnosis import quotient, simple
 from derive.check.draw import has_integral, points, variables
 from derive.check.judge import Judged, judge, no_clock
-from derive.check.repair import KINDS, WHOLE, Names, edits, swappable
+from derive.check.repair import KINDS, WHOLE, Names, edits
 from derive.check.sides import Sides
 from derive.check.tending import Approach
 from derive.command.limit import LookAtClock
@@ -140,33 +140,42 @@ def _batches(printed: Sides) -> Iterator[Iterable[Repair]]:
     with each other.
     """
     claim = printed.claim
-    if claim.meant.is_inequality:
-        yield from ([each] for each in _other_relations(claim))
-        return
-    single, factors = _single(claim), _scaled(printed)
-    if claim.meant.toward is None and not has_integral(claim):
-        yield from (single, factors)
-        return
-    every = list(single)
-    first = [each for each in every if each.change.endswith(WHOLE) or each.kind == "limit"]
-    in_part = [each for each in every if each not in first]
-    if claim.meant.toward is not None:
-        yield from ([*first, *factors], in_part)
-        return
-    yield from (first, factors)
-    yield from ((each for each in in_part if each.kind == kind) for kind in KINDS)
-
-
-def _other_relations(claim: Claim) -> Iterator[Repair]:
     left, relation, right = claim.meant.left, claim.meant.relation, claim.meant.right
-    for other in (Relation.EQUAL, relation.turned) if left != right else ():
-        change = f"relation {other} for {relation}"
-        yield Repair(left, right, other, "relation", change)
+    if claim.meant.is_inequality:
+        for other in (Relation.EQUAL, relation.turned) if left != right else ():
+            yield [Repair(left, right, other, "relation", f"relation {other} for {relation}")]
+        return
+    every = list(_single(claim))
+    factors = (
+        Repair(left, factor * right, relation, "factor", f"factor {factor} on {WHOLE}")
+        for factor in _factors(printed)
+    )
+    if claim.meant.toward is None and not has_integral(claim):
+        yield from (every, factors)
+        return
+    whole = [each for each in every if each.change.endswith(WHOLE) or each.kind == "limit"]
+    in_part = [each for each in every if each not in whole]
+    if claim.meant.toward is not None:
+        yield from ([*whole, *factors], in_part)
+    else:
+        yield from (whole, factors)
+        yield from ((each for each in in_part if each.kind == kind) for kind in KINDS)
 
 
-def _changed(claim: Claim, left: Expr, right: Expr, kind: str, what: str) -> Repair:
-    on_left = left != claim.meant.left
-    return Repair(left, right, claim.meant.relation, kind, f"{kind} {what}", on_left=on_left)
+def _single(claim: Claim) -> Iterator[Repair]:
+    """Yield the changes of the right side, and of the left one if it is not only a symbol."""
+    meant, known = claim.meant, _units_of(claim)
+    for side, other in ((meant.right, meant.left), (meant.left, meant.right)):
+        on_left = side is meant.left
+        if on_left and isinstance(side, Symbol):
+            return
+        swaps = meant.swaps if on_left else swaps_on_right(claim)
+        units = {symbol: unit for symbol, unit in known.items() if symbol != other}
+        fits = partial(_fit, known, other) if claim.units else None
+        for edit in edits(side, Names(swaps, units, fits)):
+            sides = (edit.expr, other) if on_left else (other, edit.expr)
+            change = f"{edit.kind} {edit.what}"
+            yield Repair(*sides, meant.relation, edit.kind, change, on_left=on_left)
 
 
 def swaps_on_right(claim: Claim) -> tuple[Symbol, ...]:
@@ -182,33 +191,9 @@ def _units_of(claim: Claim) -> dict[Symbol, Dimension]:
     return {symbol: parse_unit(unit) for symbol, unit in claim.meant.unit_of.items()}
 
 
-def _names(claim: Claim, swaps: tuple[Symbol, ...], other: Expr) -> Names:
-    """Return the names for changes of one side, of which the other side stays."""
-    known = _units_of(claim)
-    units = {symbol: unit for symbol, unit in known.items() if symbol != other}
-    return swappable(swaps, units, partial(_fit, known, other) if claim.units else None)
-
-
 def _fit(known: Mapping[Symbol, Dimension], left: Expr, right: Expr) -> bool:
     """Whether the units of an equation fit, as far as they are known."""
     return not Units(known).mismatch(left, right)
-
-
-def _single(claim: Claim) -> Iterator[Repair]:
-    left, right = claim.meant.left, claim.meant.right
-    for edit in edits(right, _names(claim, swaps_on_right(claim), left)):
-        yield _changed(claim, left, edit.expr, edit.kind, edit.what)
-    if not isinstance(left, Symbol):
-        for edit in edits(left, _names(claim, claim.meant.swaps, right)):
-            yield _changed(claim, edit.expr, right, edit.kind, edit.what)
-
-
-def _scaled(printed: Sides) -> Iterator[Repair]:
-    """Yield the equation with another factor on its right side, if one may be lost."""
-    claim = printed.claim
-    for factor in _factors(printed):
-        changed = factor * claim.meant.right
-        yield _changed(claim, claim.meant.left, changed, "factor", f"{factor} on {WHOLE}")
 
 
 def _factors(printed: Sides) -> Iterator[Expr]:

@@ -6,14 +6,12 @@ written there instead.  The rules do not depend on the paper.
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import chain
 
 from sympy import (
     Abs,
     Add,
     Basic,
     Expr,
-    Function,
     Integral,
     Mul,
     Pow,
@@ -57,14 +55,20 @@ _LOST = tuple(sign * n for n in (S.One, S.Half, S(2)) for sign in (1, -1))
 class Names:
     """The names in an equation.
 
-    swaps  for each name that may have been confused with others, these others
+    swaps  names that may have been confused with each other
     units  the units of the names, where they are known
     fits   if the units of the equation do not fit: whether they fit with another expression
     """
 
-    swaps: Mapping[Symbol, Sequence[Symbol]] = field(default_factory=dict)
+    swaps: Sequence[Symbol] = ()
     units: Mapping[Symbol, Dimension] = field(default_factory=dict)
     fits: Callable[[Expr], bool] | None = None
+
+    def others(self, one: Symbol) -> list[Symbol]:
+        """Return the names that may replace one; those of another unit if the units do not fit."""
+        own = {} if self.fits else self.units
+        alike = (n for n in self.swaps if len({own[m] for m in {one, n} & own.keys()}) < 2)
+        return [name for name in alike if name != one]
 
 
 @dataclass(frozen=True)
@@ -80,17 +84,18 @@ class Edit:
 class Place:
     """A part of an expression that is changed.
 
-    within  the only sum, product, power, call or range of an integral in which it is changed; None
-            for all
-    name    the part in words
+    role    what is changed everywhere: the whole, a name, a call, or a part (a sum, a power or a
+            product); or what is changed in one place only: a term of a sum, an argument of a call,
+            the integrand or an end of an integral
+    within  this place; None if it is changed everywhere
     """
 
+    role: str
     part: Expr
     within: Basic | None = None
-    name: str = ""
 
     def __str__(self) -> str:
-        return self.name or str(typed(self.part))
+        return WHOLE if self.role == "whole" else str(typed(self.part))
 
     def put(self, expr: Expr, other: Expr) -> Expr:
         """Return `expr` with the other part."""
@@ -100,30 +105,36 @@ class Place:
         return expr.xreplace({self.within: self.within.func(*args)})
 
 
-_Places = Callable[[Expr], Iterable[Place]]
-_Changed = Iterable[tuple[str, Expr]]
-"""What is changed, in words, and what is written in that place."""
+def _places(expr: Expr) -> list[Place]:
+    """Return all places of an expression, in an order that is the same in every run."""
+    every = {node for node in preorder_traversal(expr) if isinstance(node, Expr)}
+    nodes = sorted(every, key=_by_length)
+    calls = [node for node in nodes if node.is_Function or isinstance(node, Integral)]
+    arguments = {arg for call in calls for arg in call.args}
+    found = [Place("whole", expr)]
+    found += [Place("name", node) for node in nodes if node in expr.free_symbols]
+    found += [Place("call", node) for node in calls]
+    parts = [node for node in nodes if isinstance(node, Add | Pow | Mul)]
+    found += [Place("part", node) for node in parts if not (node.is_Mul and node in arguments)]
+    for node in nodes:
+        if isinstance(node, Integral):
+            found.append(Place("integrand", node.function, node))
+            found += [Place("end", end, each) for each in node.limits for end in each[1:]]
+        elif isinstance(node, Add) or node in calls:
+            role = "term" if isinstance(node, Add) else "argument"
+            found += [Place(role, arg, node) for arg in node.args if isinstance(arg, Expr)]
+    return found
 
 
-def swappable(
-    names: Sequence[Symbol],
-    units: Mapping[Symbol, Dimension],
-    fits: Callable[[Expr], bool] | None = None,
-) -> Names:
-    """Return for each name the others; those of another unit only if the units do not fit."""
-    own = {} if fits else units
-    swaps = {
-        one: [n for n in names if n != one and len({own[m] for m in {one, n} & own.keys()}) < 2]
-        for one in names
-    }
-    return Names(swaps, units, fits)
+def _by_length(part: Basic) -> tuple[int, str]:
+    return len(str(part)), str(part)
 
 
 def edits(expr: Expr, names: Names | None = None) -> Iterator[Edit]:
     """Yield all changes of one side; each differs from `expr` and from all others."""
-    seen, names = {expr}, names or Names()
-    for kind, places, changes in _RULES:
-        for place in places(expr):
+    seen, names, every = {expr}, names or Names(), _places(expr)
+    for kind, roles, changes in _RULES:
+        for place in (each for role in roles.split() for each in every if each.role == role):
             for what, other in changes(place, names):
                 changed = place.put(expr, other)
                 if changed in seen or changed.has(S.NaN, S.ComplexInfinity):
@@ -134,61 +145,15 @@ def edits(expr: Expr, names: Names | None = None) -> Iterator[Edit]:
                 yield Edit(kind, what, changed)
 
 
-# ------------------------------------------------------------------ places
-
-
-def _whole(expr: Expr) -> list[Place]:
-    return [Place(expr, name=WHOLE)]
-
-
-def _names(expr: Expr) -> list[Place]:
-    return [Place(symbol) for symbol in sorted(expr.free_symbols, key=str)]
-
-
-def _calls(expr: Expr) -> list[Place]:
-    every = {n for n in preorder_traversal(expr) if isinstance(n, Expr)}
-    return [Place(n) for n in sorted(every, key=str) if n.is_Function or isinstance(n, Integral)]
-
-
-def _all(kind: type) -> _Places:
-    """Return the rule for the parts of one type, in an order that is the same in every run."""
-    return lambda expr: [
-        Place(part) for part in sorted(expr.atoms(kind), key=lambda p: (len(str(p)), str(p)))
-    ]
-
-
-def _inside(*kinds: type, of: type = Expr) -> _Places:
-    """Return the rule for the arguments of one type in all parts of some types."""
-    return lambda expr: [
-        Place(arg, place.part)
-        for place in chain.from_iterable(_all(kind)(expr) for kind in kinds)
-        for arg in place.part.args
-        if isinstance(arg, of)
-    ]
-
-
-def _ends(expr: Expr) -> list[Place]:
-    """Return the ends of all integrals."""
-    limits = (limit for over in _all(Integral)(expr) for limit in over.part.args[1:])
-    return [Place(end, limit) for limit in limits for end in limit.args[1:]]
-
-
-def _brackets(expr: Expr) -> list[Place]:
-    """Return the products, except those that are arguments of functions."""
-    arguments = {arg for call in _calls(expr) for arg in call.part.args}
-    return [place for place in _all(Mul)(expr) if place.part not in arguments]
-
-
-def _any(*rules: _Places) -> _Places:
-    return lambda expr: chain.from_iterable(rule(expr) for rule in rules)
-
-
 # ------------------------------------------------------------------ changes
+
+_Changed = Iterable[tuple[str, Expr]]
+"""What is changed, in words, and what is written in that place."""
 
 
 def _scaled(place: Place, names: Names) -> _Changed:
     """Write another factor, or make the number of a term larger or smaller by one."""
-    factors = [*(_FACTORS if place.within is None else _OF_A_TERM)]
+    factors = [*(_OF_A_TERM if place.within else _FACTORS)]
     if place.within and any(n.exp.is_Rational and n.exp.q > 1 for n in place.part.atoms(Pow)):
         factors += _OF_A_ROOT
     number = place.part.as_coeff_Mul()[0]
@@ -212,7 +177,8 @@ def _swapped(place: Place, names: Names) -> _Changed:
     """Write one name for another, exchange two, or write the mean of both or the reciprocal."""
     expr, end = place.part, " under the integral" if place.within else ""
     held = [name for name in names.swaps if expr.has(name)]
-    pairs = [(one, other) for one in held for other in names.swaps[one]]
+    pairs = [(one, other) for one in held for other in names.others(one)]
+    parts = sorted(expr.atoms(Add, Mul, Pow), key=_by_length)
     for one, other in pairs:
         yield f"{other} for {one}{end}", expr.xreplace({one: other})
     for one, other in pairs:
@@ -221,10 +187,9 @@ def _swapped(place: Place, names: Names) -> _Changed:
     for one, other in pairs:
         mean = (one + other) / 2
         yield f"{mean} for {one}{end}", expr.xreplace({one: mean})
-        for inner in _inside(Add, Mul, Pow)(expr):
-            if inner.part.has(one):
-                changed = inner.put(expr, inner.part.xreplace({one: other}))
-                yield f"{other} for {one} in {inner}{end}", changed
+        for inner in (Place("part", arg, each) for each in parts for arg in each.args):
+            changed = inner.put(expr, inner.part.xreplace({one: other}))
+            yield f"{other} for {one} in {inner}{end}", changed
     for one in held:
         yield f"{1 / one} for {one}{end}", expr.xreplace({one: 1 / one})
 
@@ -252,7 +217,7 @@ def _other_ratio(place: Place, names: Names) -> _Changed:
     """Write the quotient of two names with the same unit as another factor of a term."""
     held = [name for name in names.swaps if name in names.units and place.part.has(name)]
     for one in held:
-        for other in names.swaps[one]:
+        for other in names.others(one):
             if names.units.get(other) == names.units[one] != NUMBER:
                 yield from ((f"{n} on {place}", n * place.part) for n in (one / other, other / one))
 
@@ -290,16 +255,11 @@ def _other_exponent(place: Place, names: Names) -> _Changed:
                 yield f"{other} on {bracket}{end}", changed
 
 
-def _in_bracket(place: Place, names: Names) -> _Changed:
-    """Write (u - v)**n for u**n - v**n, or the other way round."""
+def _on_each_term(place: Place, names: Names) -> _Changed:
+    """Write u**n - v**n for (u - v)**n."""
     base, power = place.part.as_base_exp()
-    if len(base.args) != 2:
-        return
-    if power.is_Rational and base.is_Add:
+    if base.is_Add and len(base.args) == 2 and power.is_Rational:
         yield f"{power} on each term of {base}", Add(*(_raised(n, power) for n in base.args))
-    for number in (2, 3, S.Half) if place.part.is_Add else ():
-        terms = [_raised(n, S.One / number) for n in place.part.args]
-        yield f"{number} on {Add(*terms)}", Add(*terms) ** number
 
 
 def _raised(term: Expr, power: Expr) -> Expr:
@@ -309,37 +269,36 @@ def _raised(term: Expr, power: Expr) -> Expr:
 
 
 def _upside_down(place: Place, names: Names) -> _Changed:
-    """Invert the number of a product, or exchange a factor and a divisor."""
-    number, rest = place.part.as_coeff_Mul()
-    if number not in (1, -1):
-        yield f"-1 on {number}", rest / number
-    divisors = [n for n in Mul.make_args(rest) if isinstance(n, Pow) and n.exp.is_negative]
-    for factor in (n for n in Mul.make_args(rest) if n not in divisors and rest != n):
+    """Exchange a factor and a divisor."""
+    factors = Mul.make_args(place.part.as_coeff_Mul()[1])
+    divisors = [n for n in factors if isinstance(n, Pow) and n.exp.is_negative]
+    for factor in (n for n in factors if n not in divisors):
         for divisor in divisors:
             changed = Mul(*(1 / n if n in (factor, divisor) else n for n in place.part.args))
             yield f"{factor} and {1 / divisor} exchanged", changed
 
 
-_RULES: tuple[tuple[str, _Places, Callable[[Place, Names], _Changed]], ...] = (
-    ("sign", _any(_whole, _inside(Add), _calls), lambda p, _: [(f"of {p}", -p.part)]),
-    ("swap", _any(_whole, _inside(Integral)), _swapped),
-    ("factor", _whole, _scaled),
-    ("factor", _inside(Add), _scaled),
-    ("factor", _calls, _argument_scaled),
-    ("factor", _any(_whole, _inside(Add, Function)), _lost),
-    ("factor", _inside(Add), _other_ratio),
-    ("function", _calls, _other_function),
-    ("exponent", _any(_whole, _names, _all(Add), _all(Pow), _brackets), _other_exponent),
-    ("exponent", _inside(Add, of=Symbol), _other_exponent),
-    ("exponent", _any(_all(Pow), _all(Add)), _in_bracket),
-    ("exponent", _all(Mul), _upside_down),
-    ("angle", _names, _complement),
-    ("term", _inside(Add), lambda p, _: [(f"without {p}", S.Zero)]),
-    ("modulus", _whole, lambda p, _: [(f"around {p}", Abs(p.part))]),
-    (
-        "modulus",
-        _all(Abs),
-        lambda p, _: [(f"{n} for {p}", n) for n in (p.part.args[0], -p.part.args[0])],
-    ),
-    ("limit", _ends, _other_end),
+def _other_modulus(place: Place, names: Names) -> _Changed:
+    """Write the modulus of a whole side, or leave one out."""
+    if place.role == "whole":
+        yield f"around {place}", Abs(place.part)
+    elif isinstance(place.part, Abs):
+        yield from ((f"{n} for {place}", n) for n in (place.part.args[0], -place.part.args[0]))
+
+
+_RULES: tuple[tuple[str, str, Callable[[Place, Names], _Changed]], ...] = (
+    ("sign", "whole term call", lambda p, _: [(f"of {p}", -p.part)]),
+    ("swap", "whole integrand", _swapped),
+    ("factor", "whole term", _scaled),
+    ("factor", "call", _argument_scaled),
+    ("factor", "whole term argument", _lost),
+    ("factor", "term", _other_ratio),
+    ("function", "call", _other_function),
+    ("exponent", "whole name part term", _other_exponent),
+    ("exponent", "part", _on_each_term),
+    ("exponent", "whole part argument", _upside_down),
+    ("angle", "name", _complement),
+    ("term", "term", lambda p, _: [(f"without {p}", S.Zero)]),
+    ("modulus", "whole call", _other_modulus),
+    ("limit", "end", _other_end),
 )

@@ -10,7 +10,7 @@ from derive.check.claim import Claim, Verdict
 from derive.check.correction import swaps_on_right
 from derive.check.draw import has_integral
 from derive.check.judge import Judged, judge
-from derive.check.repair import Edit, edits, swappable
+from derive.check.repair import Edit, Names, edits
 from derive.check.sides import Sides
 
 FEWEST = 5
@@ -54,7 +54,7 @@ def _of_kind(claim: Claim, kind: str) -> Iterator[Mutant]:
 
 def _wanted(expr: Expr, claim: Claim, kind: str) -> Iterator[Edit]:
     swaps = claim.meant.swaps if expr != claim.meant.right else swaps_on_right(claim)
-    for edit in edits(expr, swappable(swaps, {})):
+    for edit in edits(expr, Names(swaps)):
         if edit.kind != kind:
             continue
         if kind == "factor" and not edit.what.startswith(("2 on", f"{pi} on", "1/2 on")):
