@@ -1,34 +1,31 @@
 """Choose the points at which a claim is evaluated: random, but the same on every machine.
 
-All points satisfy the conditions of the claim.  Each of them is a point of moderate size, of which
-some variables are then moved to a place where the claim may fail:
+All points satisfy the conditions of the claim.
 
-    points    nowhere: variables of moderate size, or spread evenly over a declared range
-    further   over many decades; near the ends of ranges; past a numerical limit of integration;
-              to both sides of a zero of a modulus, a logarithm, a root or the like; between two
-              such zeros; and to where such a thing, or a spike, is stationary
+    points    all variables of moderate size, or spread evenly over a declared range
+    further   places where the claim may fail although it holds at these points: near ends of
+              ranges, or over many decades; beside the zeros of a modulus, a logarithm, a root or
+              the like, and beside numerical limits of integrals; and where such a thing, or a
+              spike, is stationary
 """
 
 import hashlib
 import random
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import cache
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from itertools import chain, islice, pairwise
-from math import nan
-from typing import Any, NamedTuple
 
 import mpmath
-import numpy as np
 from mpmath import mpf
-from sympy import Expr, Integral, Symbol, exp, lambdify
+from sympy import Expr, Integral, Symbol, exp
 from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.logic.boolalg import Boolean
-from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from derive.check.claim import SCALE, Claim, Point, Range
+from derive.check.intervals import ends, value_at
 from derive.proof.balls import digits
 from derive.proof.kinks import peaked, switches
-from derive.proof.values import Undecided, program
+from derive.proof.values import Undecided, program, zeros_between
 from derive.sheet.notation import text_of
 
 POINTS = 24
@@ -37,40 +34,23 @@ LEAST = 20
 """The same for claims with integrals; also the least number of points for any verdict."""
 _TRIES = 300
 """Number of attempts to draw a point that meets the conditions of a claim."""
-_CLOSEST = 6
-"""Points approach an end of a range to within 10**-6 of the length of the range."""
-_PAST = (0.5, 0.9, 1.1, 2, 6)
-"""Values of other variables relative to a numerical limit of integration."""
-_MOST_PAST, _WIDE_PAST = 15, 6
-"""The largest number of such points, and of further points over many decades in such a case."""
-_LOOKED_AT = 10
-"""The largest number of expressions of a claim whose zeros are sought."""
-_DECADES = 6
-"""The decades over which a variable without a range is spread."""
+_EXTREME, _BESIDE, _STATIONARY = (48, 6), (36, 16), (24, 8)
+"""Numbers of further points of each sort, and the same for claims with integrals."""
+_CORNERS = 16
+"""The largest number of corners, in which all variables are near ends of their ranges."""
+_DECADES, _FEW_DECADES = 6, 2
+"""The decades over which a variable without a range is spread; the same with integrals."""
+_LOOKED_AT, _MOST_ZEROS = 10, 24
+"""The largest number of expressions whose zeros are sought, and of zeros along one variable."""
+_WORKING = 40
+"""Digits with which zeros are found."""
 _APART = 1e-9
 """Two zeros are different if they are this far apart, relative to their size."""
-_GRID = 96
-"""Number of grid points for the sign of an expression; an even number leaves out the middle."""
 
 _FADED = 69
 """The exponential of minus this number is below the digits that two sides must share."""
-_FAR = np.array([1e-30, 10.0**-_DECADES, 10.0**_DECADES, 1e30])
+_FAR = ((mpf(10) ** -30, mpf(10) ** -_DECADES), (mpf(10) ** _DECADES, mpf(10) ** 30))
 """Values below, at either end of, and above those of a variable without a range."""
-
-
-class _Numbers(NamedTuple):
-    """The numbers of further points, and the decades over which variables are spread."""
-
-    wide: int
-    ends: int
-    corners: int
-    special: int
-    decades: int
-
-
-_MANY, _FEW = _Numbers(8, 6, 16, 12, _DECADES), _Numbers(3, 2, 2, 4, 2)
-"""For claims without integrals, and for claims with integrals."""
-
 
 # ------------------------------------------------------------------ variables and conditions
 
@@ -124,16 +104,6 @@ def is_met(condition: Boolean, point: Point) -> bool:
             return False
 
 
-@cache
-def _compiled(expr: Expr) -> tuple[Callable[..., Any], list[Symbol]]:
-    """Return an expression as a function of its symbols, which gives NaN if it has no rule."""
-    held = sorted(expr.free_symbols, key=in_order)
-    try:
-        return lambdify(held, expr, modules="numpy"), held
-    except PrintMethodNotImplementedError:
-        return lambda *_: nan, held
-
-
 # ------------------------------------------------------------------ points
 
 
@@ -149,30 +119,26 @@ def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]
         yield {}
         return
     for _ in range(count if count < POINTS or not has_integral(claim) else LEAST):
-        tries = (drawn.point() for _ in range(_TRIES if claim.meant.conditions else 1))
-        yield from islice((point for point in tries if is_allowed(claim, point)), 1)
+        yield from drawn.allowed()
 
 
 def further(claim: Claim, exprs: Sequence[Expr]) -> Iterator[Point]:
     """Yield points at which a claim may fail although it holds at points of moderate size."""
-    few = has_integral(claim)
-    numbers, drawn = _FEW if few else _MANY, _Drawn(claim, "further")
+    drawn, few = _Drawn(claim, "further"), has_integral(claim)
     if claim.meant.cases or not drawn.symbols:
         return
-    past = list(drawn.past_limits(exprs)) if few else []
-    groups = [
-        drawn.wide(numbers.wide + _WIDE_PAST * bool(past), numbers.decades),
-        drawn.near_ends(numbers),
-        past,
-    ]
-    if not (few and claim.entry.family):
+    extreme, beside, stationary = (number[few] for number in (_EXTREME, _BESIDE, _STATIONARY))
+    zero, level = set(drawn.past_limits(exprs)), list[Expr]()
+    if not (few and claim.meant.family):
         found = {switch for expr in exprs for switch in switches(expr) if not switch.of.is_nonzero}
-        kinks = [switch.of for switch in found if switch.kind == "kink"]
-        peaks = [inner for expr in exprs for inner in peaked(expr)]
-        either_side = drawn.either_side(switch.of for switch in found)
-        stationary = islice(drawn.stationary([*kinks, *peaks]), 2 * numbers.special)
-        between = islice(drawn.between([switch.of for switch in found]), numbers.special)
-        groups += [islice(either_side, numbers.special), stationary, between]
+        zero |= {switch.of for switch in found}
+        level += [switch.of for switch in found if switch.kind == "kink"]
+        level += [inner for expr in exprs for inner in peaked(expr)]
+    groups = (
+        drawn.extreme(extreme, _FEW_DECADES if few else _DECADES),
+        islice(drawn.beside(zero), beside),
+        islice(drawn.stationary(level), stationary),
+    )
     yield from (point for point in chain.from_iterable(groups) if is_allowed(claim, point))
 
 
@@ -189,21 +155,21 @@ def unseen(claim: Claim, exprs: Sequence[Expr], examined: Sequence[Point]) -> st
     found = {each.of for side in exprs for each in switches(side)}
     found |= {exprs[0] - exprs[1]} if claim.meant.is_inequality else set()
     fading = {each.args[0] for side in exprs for each in side.atoms(exp, HyperbolicFunction)}
-    for expr, variable in drawn.along(found):
-        below, low, high, above = np.sign(along(expr, variable, point, _FAR))
-        if variable not in drawn.ranges and -1 in (below * low, high * above):
-            values = _values(expr, variable, examined)
-            if not min(values) < 0 < max(values):
-                where = f"beyond the values of {variable} that are examined"
-                return f"{text_of(expr)} changes its sign {where}"
-    for expr, variable in drawn.along(fading):
-        if min(map(abs, _values(expr, variable, examined))) > _FADED:
-            return f"an exponential of {text_of(expr)} has its limit at all examined points"
+    with digits(_WORKING):
+        for expr, variable in drawn.along(found):
+            values = [value_at(expr, where) for where in examined]
+            is_seen = any(value < 0 for value in values) and any(value > 0 for value in values)
+            if variable in drawn.ranges or is_seen:
+                continue
+            for pair in _FAR:
+                low, high = (value_at(expr, point | {variable: value}) for value in pair)
+                if low * high < 0:
+                    where = f"beyond the values of {variable} that are examined"
+                    return f"{text_of(expr)} changes its sign {where}"
+        for expr, _ in drawn.along(fading):
+            if all(abs(value_at(expr, where)) > _FADED for where in examined):
+                return f"an exponential of {text_of(expr)} has its limit at all examined points"
     return ""
-
-
-def _values(expr: Expr, variable: Symbol, where: Sequence[Point]) -> list[float]:
-    return [float(along(expr, variable, p, np.array([float(p[variable])]))[0]) for p in where]
 
 
 class _Drawn:
@@ -213,7 +179,7 @@ class _Drawn:
         digest = hashlib.sha256(
             f"{claim.entry.family or claim.entry.label}{seed}".encode()
         ).digest()
-        self.rng = random.Random(int.from_bytes(digest[:8], "big"))
+        self.claim, self.rng = claim, random.Random(int.from_bytes(digest[:8], "big"))
         self.symbols = variables(claim)
         self.ranges = {s: claim.meant.ranges[s] for s in self.symbols if s in claim.meant.ranges}
 
@@ -222,80 +188,72 @@ class _Drawn:
         values = {s: _at(self.ranges.get(s, SCALE), self.rng.random()) for s in self.symbols}
         return {symbol: mpf(value) for symbol, value in (values | (moved or {})).items()}
 
-    def wide(self, count: int, decades: int) -> Iterator[Point]:
-        """Yield points with the variables that have no range spread over many decades."""
-        free = [symbol for symbol in self.symbols if symbol not in self.ranges]
-        for _ in range(count if free else 0):
-            yield self.point({s: 10 ** self.rng.uniform(-decades, decades) for s in free})
+    def allowed(self) -> Iterator[Point]:
+        """Yield one point of moderate size that meets the conditions, if it is found."""
+        tries = (self.point() for _ in range(_TRIES if self.claim.meant.conditions else 1))
+        yield from islice((point for point in tries if is_allowed(self.claim, point)), 1)
 
-    def near_ends(self, numbers: _Numbers) -> Iterator[Point]:
-        """Yield points with all variables near ends of their ranges.
+    def extreme(self, count: int, decades: int) -> Iterator[Point]:
+        """Yield points in corners, in which all variables are near ends of their ranges.
 
-        Some are close to random corners, others within a tenth of the upper, the lower, and then
-        random ends.
+        In turn, they are close to a corner, or within a tenth of it, or variables without a range
+        are spread over many decades instead.
         """
         full = 2 ** len(self.ranges) - 1
-        some = [full, 0, *(self.rng.randint(0, full) for _ in range(numbers.ends - 2))]
-        corners = self.rng.sample(range(full + 1), min(full + 1, numbers.corners))
-        for n, corner in enumerate([*some, *corners] if self.ranges else []):
-            farthest = -1 if n < numbers.ends else -4
-            shares = [10 ** self.rng.uniform(-_CLOSEST, farthest) for _ in self.ranges]
-            yield self.point(
-                {
-                    symbol: _at(span, 1 - share if corner >> k & 1 else share)
-                    for k, ((symbol, span), share) in enumerate(
-                        zip(self.ranges.items(), shares, strict=True)
-                    )
-                }
-            )
+        corners = self.rng.sample(range(full + 1), min(full + 1, _CORNERS))
+        corners = [*dict.fromkeys((full, 0, *corners))]
+        free = [symbol for symbol in self.symbols if symbol not in self.ranges]
+        for n in range(count):
+            if n % 3 == 2 or not self.ranges:
+                yield self.point({s: 10 ** self.rng.uniform(-decades, decades) for s in free})
+                continue
+            moved, corner = dict[Symbol, float](), corners[n // 3 % len(corners)]
+            for k, (symbol, span) in enumerate(self.ranges.items()):
+                share = 10 ** self.rng.uniform(-6, (-4, -1)[n % 3])
+                moved[symbol] = _at(span, 1 - share if corner >> k & 1 else share)
+            yield self.point(moved)
 
-    def past_limits(self, exprs: Sequence[Expr]) -> Iterator[Point]:
-        """Yield points with variables of an integrand close to a numerical limit."""
-        near = set[tuple[Symbol, float]]()
+    def past_limits(self, exprs: Sequence[Expr]) -> Iterator[Expr]:
+        """Yield what is zero where a variable of an integrand is at a numerical limit."""
         for over in set().union(*(expr.atoms(Integral) for expr in exprs)):
             held = over.function.free_symbols & set(self.symbols) - {over.limits[-1][0]}
-            ends = [end for end in over.limits[-1][1:] if end.is_real and end.is_number and end]
-            near |= {(each, part * float(end)) for each in held for end in ends for part in _PAST}
-        within = [(s, value) for s, value in near if self._grid(s)[0] < value < self._grid(s)[-1]]
-        for symbol, value in sorted(within, key=lambda e: (in_order(e[0]), e[1]))[:_MOST_PAST]:
-            yield self.point({symbol: value})
+            numbers = (n for n in over.limits[-1][1:] if n.is_real and n.is_number and n.is_finite)
+            yield from (symbol - end for end in numbers if end for symbol in held)
 
-    def either_side(self, exprs: Iterable[Expr]) -> Iterator[Point]:
-        """Yield pairs of points with a zero of an expression between them."""
-        for expr, variable in self.along(exprs):
-            point = self.point()
-            for zero, ends in zeros(expr, variable, point, self._grid(variable))[:1]:
-                for end in ends:
-                    share = 10 ** self.rng.uniform(-4, 0)
-                    yield point | {variable: mpf(zero + (end - zero) * share)}
+    def beside(self, exprs: Iterable[Expr]) -> Iterator[Point]:
+        """Yield points on either side of zeros along one variable, the closest zeros first.
 
-    def between(self, exprs: Iterable[Expr]) -> Iterator[Point]:
-        """Yield points between neighbouring zeros along one variable, closest pairs first.
-
-        Between the zeros of two switches, a claim may be false in a very small range.
+        Each is nearer to its zero than to the next one, because a claim may be false in a very
+        small range between the zeros of two switches.
         """
-        point, places = self.point(), dict[Symbol, list[float]]()
-        for expr, variable in self.along(exprs):
-            found = zeros(expr, variable, point, self._grid(variable))
-            places.setdefault(variable, []).extend(zero for zero, _ in found)
-        pairs = [(s, *ends) for s, each in places.items() for ends in pairwise(sorted(each))]
-        for symbol, low, high in sorted(pairs, key=lambda pair: pair[2] - pair[1]):
-            if high - low > _APART * abs(high):
-                yield point | {symbol: mpf(low + (high - low) * self.rng.uniform(0.2, 0.8))}
+        lines, pairs = dict[Symbol, set[mpf]](), list[tuple[mpf, Symbol, mpf, mpf]]()
+        for point in self.allowed():
+            for expr, variable in self.along(exprs):
+                lines.setdefault(variable, set()).update(self._zeros(expr, variable, point))
+            for variable, places in lines.items():
+                for one, other in pairwise(sorted({*self._ends(variable), *places})):
+                    pairs += [(other - one, variable, one, other)] * (one in places)
+                    pairs += [(other - one, variable, other, one)] * (other in places)
+            for gap, variable, place, other in sorted(pairs, key=lambda pair: pair[0]):
+                share = 10 ** self.rng.uniform(-3, -0.3)
+                if gap <= _APART * abs(place):
+                    continue
+                if variable in self.ranges:
+                    yield point | {variable: place + (other - place) * share}
+                else:
+                    yield point | {variable: place * (other / place) ** share}
 
     def stationary(self, exprs: Iterable[Expr]) -> Iterator[Point]:
         """Yield points where an expression is stationary.
 
-        Near such points it may change sign twice between two neighbouring points of a grid.  The
-        variables are treated one after the other, and each keeps the value that was found for it.
+        The variables are treated one after the other, and each keeps the value that was found.
         """
-        points_ = dict[Expr, Point]()
+        reached = dict[Expr, Point]()
         for expr, variable in self.along(exprs):
-            point = points_.setdefault(expr, self.point())
-            grid = self._grid(variable)
-            for zero, _ in zeros(expr.diff(variable), variable, point, grid)[:1]:
-                points_[expr] = point | {variable: mpf(zero)}
-                yield points_[expr]
+            point = reached.setdefault(expr, self.point())
+            if places := self._zeros(expr.diff(variable), variable, point):
+                reached[expr] = point | {variable: places[len(places) // 2]}
+                yield reached[expr]
 
     def along(self, exprs: Iterable[Expr]) -> Iterator[tuple[Expr, Symbol]]:
         """Yield the expressions in the variables, the shortest first, with each variable."""
@@ -304,55 +262,28 @@ class _Drawn:
         for expr in sorted(chosen, key=lambda each: (len(str(each)), str(each)))[:_LOOKED_AT]:
             yield from ((expr, variable) for variable in sorted(expr.free_symbols, key=in_order))
 
-    def _grid(self, symbol: Symbol) -> Any:
-        """Return values of a variable over its whole range."""
-        if symbol not in self.ranges:
-            return np.logspace(-_DECADES, _DECADES, _GRID)
-        return np.array([_at(self.ranges[symbol], n / (_GRID - 1)) for n in range(_GRID)])
+    def _ends(self, variable: Symbol) -> tuple[mpf, mpf]:
+        low, high = ends(self.ranges.get(variable, SCALE))
+        return mpf(low.numerator) / low.denominator, mpf(high.numerator) / high.denominator
+
+    def _zeros(self, expr: Expr, variable: Symbol, point: Point) -> list[mpf]:
+        """Return the zeros of an expression along a variable, over its whole range."""
+        with mpmath.workdps(_WORKING):
+            return zeros(expr, variable, point, *self._ends(variable))
+
+
+def zeros(expr: Expr, variable: Symbol, point: Point, low: mpf, high: mpf) -> list[mpf]:
+    """Return zeros of an expression along a variable to the working digits, in their order."""
+    with digits(mpmath.mp.dps), suppress(Undecided, NameError):  # no value, as DiracDelta
+        found = islice(zeros_between(expr, variable, point, low, high), _MOST_ZEROS)
+        return sorted(zero for zero in found if low <= zero <= high)
+    return []
 
 
 def _at(span: Range, share: float) -> float:
     """Return the value at a fraction of a range."""
     value = span.low + share * (span.high - span.low)
     return float(2.0**value if span.powers else value)
-
-
-def along(expr: Expr, variable: Symbol, point: Point, values: Any) -> Any:
-    """Evaluate an expression along a variable in double precision, with NaN if that fails."""
-    of, held = _compiled(expr)
-    with np.errstate(all="ignore"):
-        try:
-            found = of(*(values if s == variable else float(point[s]) for s in held))
-        except (ArithmeticError, NameError, TypeError, ValueError):
-            found = nan
-    found = np.broadcast_to(np.asarray(found), values.shape)
-    return np.full(values.shape, nan) if np.iscomplexobj(found) else found
-
-
-def _products(expr: Expr, variable: Symbol, point: Point, values: Any) -> Any:
-    """Return the products of neighbouring values, which are negative where the sign changes."""
-    found = along(expr, variable, point, values)
-    with np.errstate(all="ignore"):
-        return found[:-1] * found[1:]
-
-
-def zeros(
-    expr: Expr, variable: Symbol, point: Point, grid: Any
-) -> list[tuple[float, tuple[float, float]]]:
-    """Return changes of sign along a variable, each between two neighbouring values of a grid.
-
-    The one in the middle comes first.
-    """
-    changes = np.flatnonzero(_products(expr, variable, point, grid) < 0)
-    found = []
-    for n in np.roll(changes, -(len(changes) // 2)):
-        low, high = grid[n], grid[n + 1]
-        for _ in range(20):  # narrow the interval by repeated division
-            parts = np.linspace(low, high, 9)
-            k = int(np.argmax(_products(expr, variable, point, parts) <= 0))
-            low, high = parts[k], parts[k + 1]
-        found.append((float(low + high) / 2, (float(grid[n]), float(grid[n + 1]))))
-    return found
 
 
 # ------------------------------------------------------------------ in words

@@ -7,6 +7,7 @@ inequality is false is found early.  What is not real counts as true, because no
 """
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from heapq import heappop, heappush
@@ -166,9 +167,9 @@ class _Search:
         if self._is_met(value):
             return None
         at_middle = {symbol: _exact(place) for symbol, place in middle.items()}
-        here = _at(self.gap, at_middle)
+        here = value_at(self.gap, at_middle)
         is_inside = all(_over(each, at_middle) for each in self.conditions)
-        if is_inside and isinstance(here, arb) and here < 0:
+        if is_inside and here < 0:
             return middle
         slopes = {symbol: _over(rate, balls) for symbol, rate in self.rates.items()}
         lowest = float(value.real.lower()) if value.is_finite() else -inf
@@ -223,13 +224,12 @@ def _over(expr: sp.Basic, box: Mapping[Symbol, Ball]) -> Any:
     return program(expr, boxes=True)(box)
 
 
-def _at(expr: Expr, point: Mapping[Symbol, Ball]) -> Ball:
-    """The value at one point."""
-    try:
-        found: Ball = program(expr)(point)
-    except Undecided:
-        return arb("nan")
-    return found
+def value_at(expr: Expr, point: Mapping[Symbol, Any]) -> arb:
+    """The value at one point; NaN if it is not a real number."""
+    with suppress(Undecided):
+        if isinstance(found := program(expr)(point), arb):
+            return found
+    return arb("nan")
 
 
 def _exact(number: Fraction) -> arb:

@@ -18,7 +18,6 @@ from functools import cached_property
 from math import ceil
 
 import mpmath
-import numpy as np
 from mpmath import mpf
 from sympy import Expr, Function, Integral, Piecewise, Symbol, oo
 
@@ -26,8 +25,8 @@ from derive.check.claim import SCALE, SIGNED, Claim, Point, Verdict
 from derive.check.draw import in_order, is_allowed, points, zeros
 from derive.check.sides import Sides, has_extremes
 from derive.command.limit import LookAtClock
-from derive.proof.balls import FUNCTIONS, Value, digits
-from derive.proof.values import Undecided, evaluated, zeros_between
+from derive.proof.balls import FUNCTIONS, Value
+from derive.proof.values import Undecided, evaluated
 
 _DECADES, _WITH_INTEGRALS = (64, 128, 256), (4, 8, 16)
 """Decades of the distances from a limit, and the same for sides with integrals or other functions
@@ -39,8 +38,8 @@ _BASES = 6
 _ROWS, _MOST_BASES = 12, 24
 """Number of rows that are wanted, because both sides may be real on one side only; number of points
 that are drawn to find so many."""
-_GRID = np.logspace(-6, 6.1, 96)
-"""Magnitudes over which the places are sought; simple numbers are not among them."""
+_NEAREST, _FARTHEST = mpf(10) ** -6, mpf(10) ** 6
+"""Magnitudes between which the places are sought."""
 _MOST_ZEROS = 6
 """Number of places that are examined along one variable."""
 _SAME, _NEAR = mpf(10) ** -32, mpf(10) ** -9
@@ -187,13 +186,11 @@ class Approach:
 
     def _zeros(self, variable: Symbol, base: Point) -> list[mpf]:
         """Return the values of a variable at which the gap is zero, or stationary."""
-        grid = _GRID if variable.is_positive else np.concatenate([-_GRID[::-1], _GRID])
+        ends = (_NEAREST if variable.is_positive else -_FARTHEST), _FARTHEST
         found = list[mpf]()
         for expr in (self.gap, self.gap.diff(variable)):
-            for _, ends in zeros(expr, variable, base, grid)[:_MOST_ZEROS]:
-                with digits(mpmath.mp.dps):
-                    places = zeros_between(expr, variable, base, *map(mpf, ends))
-                    found += [p for p in places if all(abs(p - each) > _NEAR for each in found)]
+            places = zeros(expr, variable, base, *ends)[:_MOST_ZEROS]
+            found += [p for p in places if all(abs(p - each) > _NEAR for each in found)]
         return sorted(found)
 
     def _row(self, variable: Symbol, values: list[mpf], base: Point) -> Row | None:
