@@ -8,7 +8,6 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from enum import StrEnum
 from typing import NamedTuple
 
 import mpmath
@@ -191,49 +190,42 @@ def numbers(finding: Finding) -> list[tuple[str, str, str]]:
 # ------------------------------------------------------------------ all claims
 
 
-class Coverage(StrEnum):
-    """How far a claim is covered, in the order of the reports: the worst first."""
-
-    FAILED = "failed"
-    CONVENTION = "true with another convention"
-    UNSOUND = "held from claims that are not shown to be true"
-    NOT_READ = "not read"
-    UNCHECKED = "unchecked"
-    TO_ACCEPT = "to be accepted"
-    BODY = f"held from {Basis.BODY}"
-    BOTH = f"held from {Basis.BOTH}"
-    DEFINITIONS = f"held from {Basis.DEFINITIONS}"
-    GIVEN = f"held from {Basis.GIVEN} claims"
-    MATHEMATICS = f"held from {Basis.MATHEMATICS}"
-
-    @property
-    def is_held(self) -> bool:
-        """Whether the claim is shown to be true."""
-        return self.name in Basis.__members__
+_NOT_HELD = (
+    *("failed", "true with another convention", "held from claims that are not shown to be true"),
+    *("not read", "unchecked", "to be accepted"),
+)
+_HELD = {basis: f"held from {basis}" for basis in Basis} | {Basis.GIVEN: "held from given claims"}
+"""How far a claim may be covered, in the order of the reports: the worst first."""
 
 
-def covered(finding: Finding) -> Coverage:
+def covered(finding: Finding) -> str:
     """Return how far one claim is covered.
 
     A claim of a draft is not read if the draft says why it, or a part of it, could not be read.
     """
     claim = finding.claim
+    failed, convention, unsound, unread, unchecked, to_accept = _NOT_HELD
     if finding.verdict == Verdict.FAILS:
-        return Coverage.FAILED
+        return failed
     if finding.verdict == Verdict.CONVENTION:
-        return Coverage.CONVENTION
+        return convention
     if finding.unsound:
-        return Coverage.UNSOUND
+        return unsound
     if finding.verdict != Verdict.UNCHECKED:
-        return Coverage[(finding.basis or claim.meant.basis).name]
+        return _HELD[finding.basis or claim.meant.basis]
     if claim.to_accept:
-        return Coverage.TO_ACCEPT
-    return Coverage.NOT_READ if claim.is_unread else Coverage.UNCHECKED
+        return to_accept
+    return unread if claim.is_unread else unchecked
+
+
+def is_held(finding: Finding) -> bool:
+    """Whether a claim is shown to be true."""
+    return covered(finding) in _HELD.values()
 
 
 def in_order(findings: Iterable[Finding]) -> list[Finding]:
     """Return the findings in the order of the reports: failures first."""
-    order = list(Coverage)
+    order = *_NOT_HELD, *_HELD.values()
     return sorted(findings, key=lambda finding: order.index(covered(finding)))
 
 
@@ -242,12 +234,13 @@ def coverage(findings: Iterable[Finding]) -> str:
 
     Claims of one equation have the same number or the same LaTeX.
     """
-    worst = dict[str, Coverage]()
+    worst = dict[str, str]()
     for finding in in_order(findings):
         entry = finding.claim.entry
         worst.setdefault(entry.equation or entry.latex or entry.label, covered(finding))
-    held = sorted(Counter(worst.values()).items(), key=lambda item: not item[0].is_held)
-    counts = ", ".join(f"{count} {found}" for found, count in held)
+    counted = Counter(worst.values())
+    order = *_HELD.values(), *_NOT_HELD
+    counts = ", ".join(f"{counted[far]} {far}" for far in order if far in counted)
     return f"{len(worst)} {'equation' if len(worst) == 1 else 'equations'}: {counts}"
 
 
