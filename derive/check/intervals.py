@@ -2,17 +2,15 @@
 
 Balls enclose all values of the gap between its sides over a box of the variables.  A box on which
 the gap may have either sign is reduced to a face if the gap grows along a variable everywhere on
-it, or else divided.  The box that may reach lowest comes first, so that a place at which the
-inequality is false is found early.  What is not real counts as true, because nothing is said there.
+it, or else divided, and its parts are examined before all other boxes.  What is not real counts as
+true, because nothing is said there.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
-from heapq import heappop, heappush
-from itertools import count
-from math import inf, sqrt
+from math import sqrt
 from typing import Any
 
 import sympy as sp
@@ -62,8 +60,8 @@ def decide(
 ) -> Decision:
     """Decide whether `gap` is positive, or at least zero, wherever the conditions are met.
 
-    At first the lowest of all boxes is examined, and then the lowest part of the one before, until
-    all are decided, one is false, or there are too many.
+    One part of the whole is examined after another, until all are decided, one is false, or there
+    are too many.
     """
     given = [each for condition in conditions for each in sp.And.make_args(condition)]
     gap = unsettled(gap, is_strict, ranges, given)
@@ -72,9 +70,8 @@ def decide(
     if gap == 1 or gap.has(sp.Integral):
         return Decision(gap == 1 or None, over)
     search = _Search(gap, is_strict, given, {symbol: ends(span) for symbol, span in over.items()})
-    for number in range(_MOST_BOXES):
+    for _ in range(_MOST_BOXES):
         look()
-        search.dives = number > _MOST_BOXES / 2
         with digits(_DIGITS):
             false = search.false_in_next()
         if false is not None:
@@ -138,18 +135,13 @@ class _Search:
     ) -> None:
         self.gap, self.is_strict, self.conditions = gap, is_strict, conditions
         self.rates = {} if gap.has(*_JUMPS) else {symbol: gap.diff(symbol) for symbol in whole}
-        self.number, self.dives, self.touches = count(), False, dict[Symbol, Fraction]()
-        self.boxes = list[tuple[int, float, int, int, Box]]()
-        self._add(-inf, 0, whole)
+        self.touches = dict[Symbol, Fraction]()
+        self.boxes = [(0, whole)]
 
     def near(self) -> dict[Symbol, Fraction]:
         """A point near which nothing is shown; empty if there is none."""
-        inside = (_middle(box) for *_, box in sorted(self.boxes) if all(self._met(box)))
+        inside = (_middle(box) for _, box in reversed(self.boxes) if all(self._met(box)))
         return self.touches or next(inside, {})
-
-    def _add(self, lowest: float, depth: int, box: Box) -> None:
-        first = -depth if self.dives else 0
-        heappush(self.boxes, (first, lowest, -depth, next(self.number), box))
 
     def _met(self, box: Box) -> list[bool | None]:
         """Whether each condition is met on a box; None if it is not met everywhere."""
@@ -158,7 +150,7 @@ class _Search:
 
     def false_in_next(self) -> dict[Symbol, Fraction] | None:
         """Decide, reduce or divide the next box; return its middle if the inequality is false."""
-        *_, depth, _, box = heappop(self.boxes)
+        depth, box = self.boxes.pop()
         balls, middle = {s: hull(*map(_exact, of)) for s, of in box.items()}, _middle(box)
         met = self._met(box)
         if False in met:
@@ -172,7 +164,6 @@ class _Search:
         if is_inside and here < 0:
             return middle
         slopes = {symbol: _over(rate, balls) for symbol, rate in self.rates.items()}
-        lowest = float(value.real.lower()) if value.is_finite() else -inf
         known = [here, *slopes.values()]
         if slopes and all(isinstance(v, arb) and v.is_finite() for v in known):
             change = sum((slopes[s] * (balls[s] - at_middle[s]) for s in box), start=arb(0))
@@ -180,12 +171,12 @@ class _Search:
                 return None
             reduced = {s: _face(box[s], slopes[s]) for s in box}
             if reduced != box and all(met):
-                self._add(lowest, -depth, reduced)
+                self.boxes.append((depth, reduced))
                 return None
-        self._divide(box, middle, lowest, -depth)
+        self._divide(box, middle, depth)
         return None
 
-    def _divide(self, box: Box, middle: dict[Symbol, Fraction], lowest: float, depth: int) -> None:
+    def _divide(self, box: Box, middle: dict[Symbol, Fraction], depth: int) -> None:
         """Divide a box along the variables in turn; a single point must be exactly zero."""
         wide = [symbol for symbol, (low, high) in box.items() if low < high]
         if not wide:
@@ -196,7 +187,7 @@ class _Search:
         along = wide[depth % len(wide)]
         low, high = box[along]
         for part in ((low, middle[along]), (middle[along], high)):
-            self._add(lowest, depth + 1, {**box, along: part})
+            self.boxes.append((depth + 1, {**box, along: part}))
 
     def _is_met(self, value: Ball) -> bool:
         """Whether all real values of an enclosure are as wanted."""

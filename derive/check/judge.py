@@ -106,15 +106,12 @@ class Judging:
 
     found      the values of both sides so far
     left_out   number of points without a value
-    unreal     points where the sides differ and one is not real; they are no counter-examples
-    one_sided  number of those points at which the other side is real
+    unreal     both sides where they differ and one is not real; this is no counter-example
     """
 
     def __init__(self, sides: Sides, look: LookAtClock, approach: Approach | None = None) -> None:
         self.sides, self.claim, self.look, self.approach = sides, sides.claim, look, approach
-        self.found: list[Pair] = []
-        self.unreal = list[Point]()
-        self.left_out, self.one_sided = 0, 0
+        self.found, self.unreal, self.left_out = list[Pair](), list[Pair](), 0
 
     def limit(self) -> Judged | None:
         """Judge whether the ratio tends to 1, or whether the difference has the printed order."""
@@ -168,8 +165,7 @@ class Judging:
         self.look()
         pair, meant = self.sides.pair(point), self.claim.meant
         if not all(pair.are_real) and not pair.agree:
-            self.unreal.append(point)
-            self.one_sided += any(pair.are_real)
+            self.unreal.append(pair)
             return None
         if meant.is_inequality and meant.relation.is_strict and pair.agree:
             exact = {symbol: _exactly(value) for symbol, value in point.items()}
@@ -203,7 +199,8 @@ class Judging:
         if claim.meant.conditions:
             told.append(f"the points must satisfy {' and '.join(map(str, claim.meant.conditions))}")
         remedy = "restrict the variables with `low`, `high` and `require`"
-        alone = self.one_sided if not few and self.one_sided == len(self.unreal) else 0
+        is_alone = not few and all(any(pair.are_real) for pair in self.unreal)
+        alone = len(self.unreal) if is_alone else 0
         return replace(self._unchecked(", ".join(told), remedy), one_side_real=alone)
 
     # -------------------------------------------------------------- inequalities and bounds
@@ -309,7 +306,8 @@ class Judging:
 
     def _not_real(self) -> str:
         """Tell a comparison that shows where a side is not real, if there is one."""
-        told = telling(self.claim, self.unreal, [pair.point for pair in self.found])
+        unreal, real = ([pair.point for pair in each] for each in (self.unreal, self.found))
+        told = telling(self.claim, unreal, real)
         return f", wherever {told}" if told else ""
 
     def _judged(self, verdict: Verdict, why: str) -> Judged:

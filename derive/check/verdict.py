@@ -160,7 +160,7 @@ def _checked(claim: Claim, given: tuple[Finding, ...]) -> Finding:
     if claim.meant.alone is not None:
         return _step(finding, claim.meant.alone)
     if finding.judged.verdict == Verdict.FAILS:
-        return _explained(_mended(finding))
+        return _mended(finding)
     if real:
         why = f"one side is real at all {real} points, but the other is real at none of them"
         mended = _mended(replace(finding, judged=Judged(Verdict.FAILS, why)))
@@ -189,33 +189,31 @@ def _step(finding: Finding, alone: Claim) -> Finding:
         why = "true by the meanings of the file, but not with those that are given"
         return replace(finding, judged=replace(finding.judged, verdict=Verdict.UNCHECKED, why=why))
     if finding.unsound != Verdict.FAILS:
-        return _explained(_mended(finding))
+        return _mended(finding)
     if finding.alone is None:
         return finding
-    return replace(_explained(_mended(replace(finding, claim=alone))), claim=finding.claim)
+    return replace(_mended(replace(finding, claim=alone)), claim=finding.claim)
 
 
 def _mended(finding: Finding) -> Finding:
-    """Add a correction of a false claim, and a convention under which it is true, if they exist."""
-    claim = finding.claim
+    """Add a correction of a false claim, and a convention under which it is true, if they exist.
+
+    Also add where it is true and, if neither was found, how its sides differ.
+    """
+    claim, sides = finding.claim, Sides.printed(finding.claim)
 
     def search(look: LookAtClock) -> Finding:
         repair, tried = repaired(claim, look)
         failed = replace(finding, repair=repair, tried=tried)
         for convention, changed in claim.meant.conventions:
             meaning = {**claim.meant.meaning, **changed}
-            under = judge(replace(Sides.printed(claim), meaning=meaning, known={}), look)
+            under = judge(replace(sides, meaning=meaning, known={}), look)
             if under.good:
                 return replace(failed, convention=convention, under=under)
         return failed
 
     found, stopped = _attempted(claim, search)
-    return found or replace(finding, stopped=stopped)
-
-
-def _explained(finding: Finding) -> Finding:
-    """Add where a false claim is true and, if it was not corrected, how its sides differ."""
-    claim, sides = finding.claim, Sides.printed(finding.claim)
+    finding = found or replace(finding, stopped=stopped)
     if claim.meant.toward is None and claim.meant.reached is None:
         partly, _ = _attempted(claim, lambda look: where_true(claim, Judging(sides, look).is_true))
         finding = replace(finding, partly=partly or "")
