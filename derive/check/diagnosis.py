@@ -36,7 +36,6 @@ _STEEPEST = 6
 _FALSE, _EACH = 6, 3
 """If a claim is false at this many points at first, it is taken to be false everywhere; the number
 of points at which a claim must be true, and false, to be called true in part."""
-_SIGNS = (("<", Lt), (">", Gt))
 
 
 @dataclass(frozen=True)
@@ -148,21 +147,19 @@ def telling(claim: Claim, some: Sequence[Point], others: Sequence[Point]) -> str
     """Return a condition that some points meet and others do not; empty if none is found."""
     if min(len(some), len(others)) < _EACH:
         return ""
-    for told, condition in _comparisons(claim):
-        met = [is_met(condition, point) for point in (*some, *others)]
+    table = dict(claim.meant.meaning)
+    for condition in _comparisons(claim):
+        in_variables = condition.xreplace(table)
+        met = [is_met(in_variables, point) for point in (*some, *others)]
         if all(met[: len(some)]) and not any(met[len(some) :]):
-            return told
+            return str(condition)
     return ""
 
 
-def _comparisons(claim: Claim) -> Iterator[tuple[str, Boolean]]:
-    """Yield simple conditions in words and in the variables."""
-    names = list(dict.fromkeys((*claim.meant.swaps, *variables(claim))))
-    zero = [(f"{name} {sign} 0", made(name, 0)) for name in names for sign, made in _SIGNS]
-    alike = [
-        (f"{one} < {other}", Lt(one, other))
-        for one, other in permutations(names, 2)
-        if claim.meant.unit_of.get(one, "") == claim.meant.unit_of.get(other, "")
-    ]
-    table = dict(claim.meant.meaning)
-    yield from ((told, condition.xreplace(table)) for told, condition in zero + alike)
+def _comparisons(claim: Claim) -> Iterator[Boolean]:
+    """Yield simple conditions: the sign of a name, and which of two names is smaller."""
+    names, unit_of = [*dict.fromkeys((*claim.meant.swaps, *variables(claim)))], claim.meant.unit_of
+    yield from (sign(name, 0) for name in names for sign in (Lt, Gt))
+    for one, other in permutations(names, 2):
+        if unit_of.get(one, "") == unit_of.get(other, ""):
+            yield Lt(one, other)
