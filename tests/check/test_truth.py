@@ -298,6 +298,12 @@ CASES = [
         "",
         "fails",
     ),
+    # zeros that lie close together, and cubes and products of which one corner is false
+    (SIGNED, "abs((v**2 - 2)**2 - 10**(-6)) = (v**2 - 2)**2 - 10**(-6)", "", "fails"),
+    (SIGNED, "abs(a + 1/a - 2.0001) = a + 1/a - 2.0001", "", "fails"),
+    (SIGNED, "abs(a + 1/a - 1.9999) = a + 1/a - 1.9999", "", "holds or numerical"),
+    (SIGNED, "abs(0.99998 - 0.99999*sin(t)**2) = 0.99998 - 0.99999*sin(t)**2", "", "fails"),
+    (FREE, "a*d*m*exp(-a - d) < 0.1353", "", "fails"),  # 1/e**2 = 0.13534 at a = d = m = 1
     # a side that is not real is no counter-example
     (SIGNED, "log(x**2) = 2*log(x)", "", "numerical: more points, wherever x < 0"),
     (
