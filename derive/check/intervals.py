@@ -78,7 +78,8 @@ def decide(
             return Decision(False, over, false)
         if not search.boxes:
             break
-    near = search.near()
+    inside = (_middle(box) for _, box in reversed(search.boxes) if all(search.met(box)))
+    near = search.touches or next(inside, {})
     return Decision(None if search.boxes or near else True, over, near)
 
 
@@ -128,7 +129,7 @@ def _is_positive(factor: Expr) -> bool:
 
 
 class _Search:
-    """The boxes of one inequality that are not decided yet."""
+    """The boxes of one inequality that are not decided yet, and where its sides touch."""
 
     def __init__(
         self, gap: Expr, is_strict: bool, conditions: Sequence[Boolean], whole: Box
@@ -138,12 +139,7 @@ class _Search:
         self.touches = dict[Symbol, Fraction]()
         self.boxes = [(0, whole)]
 
-    def near(self) -> dict[Symbol, Fraction]:
-        """A point near which nothing is shown; empty if there is none."""
-        inside = (_middle(box) for _, box in reversed(self.boxes) if all(self._met(box)))
-        return self.touches or next(inside, {})
-
-    def _met(self, box: Box) -> list[bool | None]:
+    def met(self, box: Box) -> list[bool | None]:
         """Whether each condition is met on a box; None if it is not met everywhere."""
         balls = {symbol: hull(*map(_exact, span)) for symbol, span in box.items()}
         return [_over(each, balls) for each in self.conditions]
@@ -152,7 +148,7 @@ class _Search:
         """Decide, reduce or divide the next box; return its middle if the inequality is false."""
         depth, box = self.boxes.pop()
         balls, middle = {s: hull(*map(_exact, of)) for s, of in box.items()}, _middle(box)
-        met = self._met(box)
+        met = self.met(box)
         if False in met:
             return None
         value = _over(self.gap, balls)
