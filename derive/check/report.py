@@ -21,11 +21,9 @@ from derive.sheet.notation import latex_of, text_of
 
 _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
 _SENSES = {
-    Verdict.HOLDS: "one sign",
-    Verdict.NUMERICAL: "one sign",
-    Verdict.DEFINITION: "one sign",
     Verdict.CONVENTION: "the opposite sign",
     Verdict.FAILS: "neither",
+    Verdict.UNCHECKED: "unchecked",
 }
 _SHOWN = 6
 """The number of points that an explanation shows."""
@@ -302,7 +300,7 @@ def signs(paper: Paper, findings: Iterable[Finding]) -> list[str]:
     for quantity, labels in paper.signs.items():
         senses: dict[str, list[str]] = {}
         for finding in (by_label[label] for label in labels if label in by_label):
-            sense = _SENSES.get(finding.verdict, "unchecked")
+            sense = _SENSES.get(finding.verdict, "one sign")
             senses.setdefault(sense, []).append(finding.claim.entry.place)
         if senses:
             by_sense = "; ".join(f"{sense} in {', '.join(p)}" for sense, p in senses.items())
