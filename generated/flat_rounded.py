@@ -8,6 +8,14 @@ Results are NaN unless the constants of material and geometry are positive and t
 between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
 number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
 do not broadcast.
+
+The formulas of several functions use
+
+    h = a + c
+    t_1 = edge_angle(a - b, b + c)
+    t_3 = edge_angle(-b + c, a + b)
+    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+    segment(t) = t - sin(t)*cos(t)
 """
 
 import numpy as np
@@ -41,18 +49,25 @@ __all__ += ["tension_threshold", "tilt", "why"]
 
 
 @shared
-def _tilt(a: Array, c: Array, R: Array, b: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
+def _parts(a: Array, c: Array, R: Array, b: Array) -> tuple[Array, ...]:
+    """Whether [-a, c] is a contact, its width and the angles of its parts."""
     h = a + c  # contact width [m]
     t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
+    return exists, h, t_1, t_3
+
+
+@shared
+def _tilt(a: Array, c: Array, R: Array, b: Array) -> Array:
+    """Tilt at which the contact is [-a, c]."""
+    exists, h, t_1, t_3 = _parts(a, c, R, b)
     alpha = (
         h * involute(t_1) / (2 * R)
         + t_1 * np.maximum(-b - c, 0.0) / R
         - h * involute(t_3) / (2 * R)
         - t_3 * np.maximum(-a - b, 0.0) / R
     ) / np.pi
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
     return where(exists, alpha, np.nan)
 
 
@@ -61,11 +76,8 @@ def tilt(a: Values, c: Values, *, R: Values, b: Values) -> Array:
 
         alpha = (h*involute(t_1)/(2*R) - h*involute(t_3)/(2*R) + t_1*Max(0, -b - c)/R -
             t_3*Max(0, -a - b)/R)/pi
-        h = a + c
-        t_1 = edge_angle(a - b, b + c)
-        t_3 = edge_angle(-b + c, a + b)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         involute(t) = -t*cos(t) + sin(t)
+        h, t_1, t_3, edge_angle: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
@@ -92,11 +104,8 @@ def tilt(a: Values, c: Values, *, R: Values, b: Values) -> Array:
 @shared
 def _load(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c]."""
-    h = a + c  # contact width [m]
-    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
-    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
+    exists, h, t_1, t_3 = _parts(a, c, R, b)
     P = (E_star / (16 * R)) * h**2 * (segment(t_1) + segment(t_3))
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
     return where(exists, P, np.nan)
 
 
@@ -104,11 +113,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Array
     """Normal load that makes the contact [-a, c].
 
         P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
-        h = a + c
-        t_1 = edge_angle(a - b, b + c)
-        t_3 = edge_angle(-b + c, a + b)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        segment(t) = t - sin(t)*cos(t)
+        h, t_1, t_3, edge_angle, segment: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.
@@ -136,15 +141,12 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Array
 @shared
 def _moment(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c]."""
-    h = a + c  # contact width [m]
-    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
-    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
+    exists, h, t_1, t_3 = _parts(a, c, R, b)
     M = (
         (E_star / (32 * R))
         * h**2
         * ((a - c) * (segment(t_1) + segment(t_3)) - h * (np.sin(t_3) ** 3 - np.sin(t_1) ** 3) / 3)
     )
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
     return where(exists, M, np.nan)
 
 
@@ -153,11 +155,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Arr
 
         M = E_star*h**2*(-h*(-sin(t_1)**3 + sin(t_3)**3)/3 + (a - c)*(segment(t_1) +
             segment(t_3)))/(32*R)
-        h = a + c
-        t_1 = edge_angle(a - b, b + c)
-        t_3 = edge_angle(-b + c, a + b)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        segment(t) = t - sin(t)*cos(t)
+        h, t_1, t_3, edge_angle, segment: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.
@@ -186,15 +184,12 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Arr
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
-    h = a + c  # contact width [m]
+    exists, h, t_1, t_3 = _parts(a, c, R, b)
     cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
     sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
-    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
-    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
     p = (E_star * h / (np.pi * R)) * (
         end_pressure(t_1, sin_x, cos_x) + end_pressure(t_3, cos_x, sin_x)
     )
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
     return where(exists, p, np.nan)
 
 
@@ -202,14 +197,11 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, b: V
     """Contact pressure at x; zero outside [-a, c].
 
         p = E_star*h*(end_pressure(t_1, sin_x, cos_x) + end_pressure(t_3, cos_x, sin_x))/(pi*R)
-        h = a + c
         cos_x = sqrt(Max(0, c - x)/h)
         sin_x = sqrt(Max(0, a + x)/h)
-        t_1 = edge_angle(a - b, b + c)
-        t_3 = edge_angle(-b + c, a + b)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 +
             v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) + v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
+        h, t_1, t_3, edge_angle: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
@@ -238,12 +230,9 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, b: V
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
-    h = a + c  # contact width [m]
-    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
-    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
+    exists, h, t_1, t_3 = _parts(a, c, R, b)
     K_N_left = (E_star / (np.pi * R)) * (t_1 / 2 + np.sin(t_1) / 2 + segment(t_3 / 2)) * np.sqrt(h)
     K_N_right = (E_star / (np.pi * R)) * (t_3 / 2 + np.sin(t_3) / 2 + segment(t_1 / 2)) * np.sqrt(h)
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
@@ -252,11 +241,7 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
 
         K_N_left = E_star*sqrt(h)*(t_1/2 + sin(t_1)/2 + segment(t_3/2))/(pi*R)
         K_N_right = E_star*sqrt(h)*(t_3/2 + sin(t_3)/2 + segment(t_1/2))/(pi*R)
-        h = a + c
-        t_1 = edge_angle(a - b, b + c)
-        t_3 = edge_angle(-b + c, a + b)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        segment(t) = t - sin(t)*cos(t)
+        h, t_1, t_3, edge_angle, segment: see the docstring of the module
 
     K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
@@ -287,7 +272,7 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
-    h = a + c  # contact width [m]
+    exists, h, t_1, t_3 = _parts(a, c, R, b)
     # cosine of half the angle of x = -b [-]
     cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
     # cosine of half the angle of x = b [-]
@@ -302,9 +287,7 @@ def _L_N(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Edges:
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
         h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
     )
-    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
     k_right = where(b - c < 0, 1 / R, where(b + c > 0, 0, 1 / R))  # g'' at the right edge [1/m]
-    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     L_N_left = (E_star / (3 * np.pi)) * (
         (1 / R - k_left) * second_term(t_3, 0, sin_2)
         - k_left * second_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
@@ -313,7 +296,7 @@ def _L_N(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Edges:
         (1 / R - k_right) * second_term(t_1, 0, cos_1)
         - k_right * second_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
     ) / np.sqrt(h) - (E_star / 4) * k_right / np.sqrt(h)
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R * b > 0)
+    exists = exists & (R * b > 0)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
@@ -324,7 +307,6 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
             sin_1*sin_2) + (-k_left + 1/R)*second_term(t_3, 0, sin_2))/(3*pi*sqrt(h))
         L_N_right = -E_star*k_right/(4*sqrt(h)) + E_star*(-k_right*second_term(t_2, sin_1*sin_2,
             cos_1*cos_2) + (-k_right + 1/R)*second_term(t_1, 0, cos_1))/(3*pi*sqrt(h))
-        h = a + c
         cos_1 = sqrt(Min(h, Max(0, b + c))/h)
         cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
         k_left = Piecewise((1/R, a - b > 0), (0, a + b > 0), (1/R, True))
@@ -332,12 +314,10 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
         sin_2 = sqrt(Min(h, Max(0, a + b))/h)
         t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
             sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        t_3 = edge_angle(-b + c, a + b)
         k_right = Piecewise((1/R, b - c < 0), (0, b + c > 0), (1/R, True))
-        t_1 = edge_angle(a - b, b + c)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
             2*sin(t/2)/far, far > 0), (0, True))
+        h, t_3, t_1, edge_angle: see the docstring of the module
 
     L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
     of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the

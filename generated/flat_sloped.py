@@ -8,6 +8,15 @@ Results are NaN unless the constants of material and geometry are positive and t
 between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
 number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
 do not broadcast.
+
+The formulas of several functions use
+
+    h = a + c
+    cot_1 = root_ratio(b + c, a - b)
+    cot_2 = root_ratio(-b + c, a + b)
+    tan_1 = root_ratio(a - b, b + c)
+    tan_2 = root_ratio(a + b, -b + c)
+    root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
 """
 
 import numpy as np
@@ -184,8 +193,8 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
         p = E_star*phi*kink_logarithm(2*(a + x)*Max(0, -b + c)/h, 2*(c - x)*Max(0, a + b)/h, -b
             + x)/(2*pi) + E_star*phi*kink_logarithm(2*(a + x)*Max(0, b + c)/h, 2*(c - x)*Max(0,
             a - b)/h, b + x)/(2*pi)
-        h = a + c
         kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
+        h: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
@@ -229,12 +238,7 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
         K_N_left = E_star*phi*(cot_1 + cot_2)/(pi*sqrt(h))
         K_N_right = E_star*phi*(tan_1 + tan_2)/(pi*sqrt(h))
-        cot_1 = root_ratio(b + c, a - b)
-        cot_2 = root_ratio(-b + c, a + b)
-        h = a + c
-        tan_1 = root_ratio(a - b, b + c)
-        tan_2 = root_ratio(a + b, -b + c)
-        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
+        cot_1, cot_2, h, tan_1, tan_2, root_ratio: see the docstring of the module
 
     K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
@@ -289,12 +293,7 @@ def L_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
         L_N_left = E_star*phi*(cot_1*(2*cot_1**2 + 3) + cot_2*(2*cot_2**2 + 3))/(6*pi*h**(3/2))
         L_N_right = E_star*phi*(tan_1*(2*tan_1**2 + 3) + tan_2*(2*tan_2**2 + 3))/(6*pi*h**(3/2))
-        cot_1 = root_ratio(b + c, a - b)
-        cot_2 = root_ratio(-b + c, a + b)
-        h = a + c
-        tan_1 = root_ratio(a - b, b + c)
-        tan_2 = root_ratio(a + b, -b + c)
-        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
+        cot_1, cot_2, h, tan_1, tan_2, root_ratio: see the docstring of the module
 
     L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
     of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the

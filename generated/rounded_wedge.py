@@ -9,6 +9,20 @@ Results are NaN unless the constants of material and geometry are positive and t
 between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
 number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
 do not broadcast.
+
+The formulas of several functions use
+
+    h = a + c
+    cos_1 = sqrt(Min(h, Max(0, b + c))/h)
+    cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
+    sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+    sin_2 = sqrt(Min(h, Max(0, a + b))/h)
+    t_1 = edge_angle(a - b, b + c)
+    t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 + sin_1*sin_2)*(cos_1*sin_2 +
+        cos_2*sin_1))
+    t_3 = edge_angle(-b + c, a + b)
+    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+    part_area(t, across) = 2*across**2*sin(t) + t - sin(t)
 """
 
 import numpy as np
@@ -50,8 +64,8 @@ __all__ += ["tension_threshold", "tilt", "why"]
 
 
 @shared
-def _tilt(a: Array, c: Array, b: Array, phi: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
+def _parts(a: Array, c: Array, b: Array, phi: Array) -> tuple[Array, ...]:
+    """Whether [-a, c] is a contact, its width and the angles of its parts."""
     h = a + c  # contact width [m]
     # cosine of half the angle of x = -b [-]
     cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
@@ -61,12 +75,20 @@ def _tilt(a: Array, c: Array, b: Array, phi: Array) -> Array:
     sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
     # sine of half the angle of x = b [-]
     sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     # angle of part 2 [-]
     t_2 = 2 * np.arctan2(
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
         h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
     )
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
+    return exists, h, cos_1, cos_2, sin_1, sin_2, t_2
+
+
+@shared
+def _tilt(a: Array, c: Array, b: Array, phi: Array) -> Array:
+    """Tilt at which the contact is [-a, c]."""
+    exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
+    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
     alpha = (
         t_1 * phi
@@ -74,7 +96,6 @@ def _tilt(a: Array, c: Array, b: Array, phi: Array) -> Array:
         - (phi / b) * h * (sin_1 * sin_2 - cos_1 * cos_2) * involute(t_2 / 2)
         - (phi / (2 * b)) * t_2 * (np.maximum(-a, -b) + np.minimum(b, c))
     ) / np.pi
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return where(exists, alpha, np.nan)
 
 
@@ -83,17 +104,9 @@ def tilt(a: Values, c: Values, *, b: Values, phi: Values) -> Array:
 
         alpha = (phi*t_1 - phi*t_3 - h*phi*(-cos_1*cos_2 + sin_1*sin_2)*involute(t_2/2)/b -
             phi*t_2*(Max(-a, -b) + Min(b, c))/(2*b))/pi
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_1 = edge_angle(a - b, b + c)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        t_3 = edge_angle(-b + c, a + b)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         involute(t) = -t*cos(t) + sin(t)
+        h, cos_1, cos_2, sin_1, sin_2, t_1, t_2, t_3, edge_angle: see the docstring of the
+            module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
@@ -120,22 +133,8 @@ def tilt(a: Values, c: Values, *, b: Values, phi: Values) -> Array:
 @shared
 def _load(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c]."""
-    h = a + c  # contact width [m]
-    # cosine of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    # sine of half the angle of x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
+    exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     P = (E_star * phi / (16 * b)) * h**2 * part_area(t_2, cos_1 * sin_2 + cos_2 * sin_1)
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return where(exists, P, np.nan)
 
 
@@ -143,14 +142,7 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
     """Normal load that makes the contact [-a, c].
 
         P = E_star*h**2*phi*part_area(t_2, cos_1*sin_2 + cos_2*sin_1)/(16*b)
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        part_area(t, across) = 2*across**2*sin(t) + t - sin(t)
+        h, cos_1, cos_2, sin_1, sin_2, t_2, part_area: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.
@@ -178,20 +170,7 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
 @shared
 def _moment(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c]."""
-    h = a + c  # contact width [m]
-    # cosine of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    # sine of half the angle of x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
+    exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     M = (
         (E_star * phi / (32 * b))
         * h**2
@@ -200,7 +179,6 @@ def _moment(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
             - h * part_arm(t_2, sin_1, cos_1, sin_2, cos_2) / 3
         )
     )
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return where(exists, M, np.nan)
 
 
@@ -209,16 +187,9 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
 
         M = E_star*h**2*phi*(-h*part_arm(t_2, sin_1, cos_1, sin_2, cos_2)/3 + (a -
             c)*part_area(t_2, cos_1*sin_2 + cos_2*sin_1))/(32*b)
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        part_area(t, across) = 2*across**2*sin(t) + t - sin(t)
         part_arm(t, u_1, v_1, u_2, v_2) = 8*(u_1*u_2 - v_1*v_2)*(u_1**2*v_1**2 + u_1*u_2*v_1*v_2
             + u_2**2*v_2**2)*sin(t/2)
+        h, cos_1, cos_2, sin_1, sin_2, t_2, part_area: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.
@@ -247,26 +218,12 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
-    h = a + c  # contact width [m]
-    # cosine of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
-    # sine of half the angle of x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
     sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
     p = (E_star * h * phi / (np.pi * b)) * part_pressure(
         t_2, -((b + x) / h), (b - x) / h, sin_1, cos_1, sin_2, cos_2, sin_x, cos_x
     )
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return where(exists, p, np.nan)
 
 
@@ -275,18 +232,12 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
 
         p = E_star*h*phi*part_pressure(t_2, -(b + x)/h, (b - x)/h, sin_1, cos_1, sin_2, cos_2,
             sin_x, cos_x)/(pi*b)
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
         cos_x = sqrt(Max(0, c - x)/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
         sin_x = sqrt(Max(0, a + x)/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
         part_pressure(t, start, end, u_1, v_1, u_2, v_2, u, v) = end*log((u*v_2 +
             u_2*v)/Abs(u*v_2 - u_2*v))/2 - start*log((u*v_1 + u_1*v)/Abs(u*v_1 - u_1*v))/2 +
             t*u*v/2
+        h, cos_1, cos_2, sin_1, sin_2, t_2: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
@@ -315,23 +266,9 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
-    h = a + c  # contact width [m]
-    # cosine of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    # sine of half the angle of x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
+    exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     K_N_left = (E_star * phi / (np.pi * b)) * part_weight(t_2, cos_1 * cos_2) * np.sqrt(h)
     K_N_right = (E_star * phi / (np.pi * b)) * part_weight(t_2, sin_1 * sin_2) * np.sqrt(h)
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
@@ -340,14 +277,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
         K_N_left = E_star*sqrt(h)*phi*part_weight(t_2, cos_1*cos_2)/(pi*b)
         K_N_right = E_star*sqrt(h)*phi*part_weight(t_2, sin_1*sin_2)/(pi*b)
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
         part_weight(t, far) = 2*far*sin(t/2) + t/2 - sin(t/2)*cos(t/2)
+        h, cos_1, cos_2, sin_1, sin_2, t_2: see the docstring of the module
 
     K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
@@ -378,21 +309,8 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
-    h = a + c  # contact width [m]
-    # cosine of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     k_left = where(a - b > 0, 0, where(a + b > 0, phi / b, 0))  # g'' at the left edge [1/m]
-    # sine of half the angle of x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
     t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
     k_right = where(b - c < 0, 0, where(b + c > 0, phi / b, 0))  # g'' at the right edge [1/m]
     t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
@@ -404,7 +322,7 @@ def _L_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
         (phi / b - k_right) * second_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
         - k_right * second_term(t_1, 0, cos_1)
     ) / np.sqrt(h) - (E_star / 4) * k_right / np.sqrt(h)
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b * phi > 0)
+    exists = exists & (b * phi > 0)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
@@ -415,20 +333,12 @@ def L_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
             (-k_left + phi/b)*second_term(t_2, cos_1*cos_2, sin_1*sin_2))/(3*pi*sqrt(h))
         L_N_right = -E_star*k_right/(4*sqrt(h)) + E_star*(-k_right*second_term(t_1, 0, cos_1) +
             (-k_right + phi/b)*second_term(t_2, sin_1*sin_2, cos_1*cos_2))/(3*pi*sqrt(h))
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
         k_left = Piecewise((0, a - b > 0), (phi/b, a + b > 0), (0, True))
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        t_3 = edge_angle(-b + c, a + b)
         k_right = Piecewise((0, b - c < 0), (phi/b, b + c > 0), (0, True))
-        t_1 = edge_angle(a - b, b + c)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
             2*sin(t/2)/far, far > 0), (0, True))
+        h, cos_1, cos_2, sin_1, sin_2, t_2, t_3, t_1, edge_angle: see the docstring of the
+            module
 
     L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
     of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the

@@ -8,6 +8,14 @@ Results are NaN unless the constants of material and geometry are positive and t
 between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
 number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
 do not broadcast.
+
+The formulas of several functions use
+
+    h = a + c
+    t_1 = edge_angle(a, c)
+    t_2 = edge_angle(c, a)
+    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+    segment(t) = t - sin(t)*cos(t)
 """
 
 import numpy as np
@@ -41,18 +49,25 @@ __all__ += ["tension_threshold", "tilt", "why"]
 
 
 @shared
-def _tilt(a: Array, c: Array, R_1: Array, R_2: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
+def _parts(a: Array, c: Array, R_1: Array, R_2: Array) -> tuple[Array, ...]:
+    """Whether [-a, c] is a contact, its width and the angles of its parts."""
     h = a + c  # contact width [m]
     t_1 = edge_angle(a, c)  # angle of part 1 [-]
     t_2 = edge_angle(c, a)  # angle of part 2 [-]
+    exists = (h > LEAST) & (h < MOST)
+    return exists, h, t_1, t_2
+
+
+@shared
+def _tilt(a: Array, c: Array, R_1: Array, R_2: Array) -> Array:
+    """Tilt at which the contact is [-a, c]."""
+    exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     alpha = (
         h * involute(t_1) / (2 * R_1)
         + t_1 * np.maximum(-c, 0.0) / R_1
         - h * involute(t_2) / (2 * R_2)
         - t_2 * np.maximum(-a, 0.0) / R_2
     ) / np.pi
-    exists = (h > LEAST) & (h < MOST)
     return where(exists, alpha, np.nan)
 
 
@@ -61,11 +76,8 @@ def tilt(a: Values, c: Values, *, R_1: Values, R_2: Values) -> Array:
 
         alpha = (-h*involute(t_2)/(2*R_2) - t_2*Max(0, -a)/R_2 + h*involute(t_1)/(2*R_1) +
             t_1*Max(0, -c)/R_1)/pi
-        h = a + c
-        t_1 = edge_angle(a, c)
-        t_2 = edge_angle(c, a)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         involute(t) = -t*cos(t) + sin(t)
+        h, t_1, t_2, edge_angle: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
@@ -93,11 +105,8 @@ def tilt(a: Values, c: Values, *, R_1: Values, R_2: Values) -> Array:
 @shared
 def _load(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Normal load that makes the contact [-a, c]."""
-    h = a + c  # contact width [m]
-    t_1 = edge_angle(a, c)  # angle of part 1 [-]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
+    exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     P = (E_star / 16) * h**2 * (segment(t_2) / R_2 + segment(t_1) / R_1)
-    exists = (h > LEAST) & (h < MOST)
     return where(exists, P, np.nan)
 
 
@@ -105,11 +114,7 @@ def load(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> A
     """Normal load that makes the contact [-a, c].
 
         P = E_star*h**2*(segment(t_2)/R_2 + segment(t_1)/R_1)/16
-        h = a + c
-        t_1 = edge_angle(a, c)
-        t_2 = edge_angle(c, a)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        segment(t) = t - sin(t)*cos(t)
+        h, t_1, t_2, edge_angle, segment: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.
@@ -137,9 +142,7 @@ def load(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> A
 @shared
 def _moment(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Moment that makes the contact [-a, c]."""
-    h = a + c  # contact width [m]
-    t_1 = edge_angle(a, c)  # angle of part 1 [-]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
+    exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     M = (
         (E_star / 32)
         * h**2
@@ -148,7 +151,6 @@ def _moment(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Array:
             - h * (np.sin(t_2) ** 3 / R_2 - np.sin(t_1) ** 3 / R_1) / 3
         )
     )
-    exists = (h > LEAST) & (h < MOST)
     return where(exists, M, np.nan)
 
 
@@ -157,11 +159,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) ->
 
         M = E_star*h**2*(-h*(sin(t_2)**3/R_2 - sin(t_1)**3/R_1)/3 + (a - c)*(segment(t_2)/R_2 +
             segment(t_1)/R_1))/32
-        h = a + c
-        t_1 = edge_angle(a, c)
-        t_2 = edge_angle(c, a)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        segment(t) = t - sin(t)*cos(t)
+        h, t_1, t_2, edge_angle, segment: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.
@@ -190,15 +188,12 @@ def moment(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) ->
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
-    h = a + c  # contact width [m]
+    exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
     sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
-    t_1 = edge_angle(a, c)  # angle of part 1 [-]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
     p = (E_star * h / np.pi) * (
         end_pressure(t_2, cos_x, sin_x) / R_2 + end_pressure(t_1, sin_x, cos_x) / R_1
     )
-    exists = (h > LEAST) & (h < MOST)
     return where(exists, p, np.nan)
 
 
@@ -207,14 +202,11 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R_1: Values, R_
 
         p = E_star*h*(end_pressure(t_2, cos_x, sin_x)/R_2 + end_pressure(t_1, sin_x,
             cos_x)/R_1)/pi
-        h = a + c
         cos_x = sqrt(Max(0, c - x)/h)
         sin_x = sqrt(Max(0, a + x)/h)
-        t_1 = edge_angle(a, c)
-        t_2 = edge_angle(c, a)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 +
             v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) + v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
+        h, t_1, t_2, edge_angle: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
@@ -245,16 +237,13 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R_1: Values, R_
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
-    h = a + c  # contact width [m]
-    t_1 = edge_angle(a, c)  # angle of part 1 [-]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
+    exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     K_N_left = (
         (E_star / np.pi) * (segment(t_2 / 2) / R_2 + (t_1 + np.sin(t_1)) / (2 * R_1)) * np.sqrt(h)
     )
     K_N_right = (
         (E_star / np.pi) * ((t_2 + np.sin(t_2)) / (2 * R_2) + segment(t_1 / 2) / R_1) * np.sqrt(h)
     )
-    exists = (h > LEAST) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
@@ -263,11 +252,7 @@ def K_N(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> Ed
 
         K_N_left = E_star*sqrt(h)*(segment(t_2/2)/R_2 + (t_1 + sin(t_1))/(2*R_1))/pi
         K_N_right = E_star*sqrt(h)*((t_2 + sin(t_2))/(2*R_2) + segment(t_1/2)/R_1)/pi
-        h = a + c
-        t_1 = edge_angle(a, c)
-        t_2 = edge_angle(c, a)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        segment(t) = t - sin(t)*cos(t)
+        h, t_1, t_2, edge_angle, segment: see the docstring of the module
 
     K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
@@ -298,20 +283,18 @@ def K_N(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> Ed
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
-    h = a + c  # contact width [m]
+    exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     k_left = where(a > 0, 1 / R_1, 1 / R_2)  # g'' at the left edge [1/m]
     sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # sine of half the angle of x = 0 [-]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
     cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # cosine of half the angle of x = 0 [-]
     k_right = where(c > 0, 1 / R_2, 1 / R_1)  # g'' at the right edge [1/m]
-    t_1 = edge_angle(a, c)  # angle of part 1 [-]
     L_N_left = (E_star / (3 * np.pi)) * (1 / R_2 - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(
         h
     ) - (E_star / 4) * k_left / np.sqrt(h)
     L_N_right = (E_star / (3 * np.pi)) * (1 / R_1 - k_right) * second_term(t_1, 0, cos_1) / np.sqrt(
         h
     ) - (E_star / 4) * k_right / np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST) & (R_1 * R_2 > 0)
+    exists = exists & (R_1 * R_2 > 0)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
@@ -322,16 +305,13 @@ def L_N(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> Ed
             sin_1)/(3*pi*sqrt(h))
         L_N_right = -E_star*k_right/(4*sqrt(h)) + E_star*(-k_right + 1/R_1)*second_term(t_1, 0,
             cos_1)/(3*pi*sqrt(h))
-        h = a + c
         k_left = Piecewise((1/R_1, a > 0), (1/R_2, True))
         sin_1 = sqrt(Min(h, Max(0, a))/h)
-        t_2 = edge_angle(c, a)
         cos_1 = sqrt(Min(h, Max(0, c))/h)
         k_right = Piecewise((1/R_2, c > 0), (1/R_1, True))
-        t_1 = edge_angle(a, c)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
             2*sin(t/2)/far, far > 0), (0, True))
+        h, t_2, t_1, edge_angle: see the docstring of the module
 
     L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
     of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the

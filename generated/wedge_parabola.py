@@ -8,6 +8,17 @@ Results are NaN unless the constants of material and geometry are positive and t
 between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
 number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
 do not broadcast.
+
+The formulas of several functions use
+
+    h = a + c
+    t_1 = edge_angle(a, c)
+    t_2 = edge_angle(c, a)
+    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+    segment(t) = t - sin(t)*cos(t)
+    cot_1 = root_ratio(c, a)
+    tan_1 = root_ratio(a, c)
+    root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
 """
 
 import numpy as np
@@ -41,13 +52,20 @@ __all__ += ["tension_threshold", "tilt", "why"]
 
 
 @shared
+def _parts(a: Array, c: Array, R: Array, phi: Array) -> tuple[Array, ...]:
+    """Whether [-a, c] is a contact, its width and the angles of its parts."""
+    h = a + c  # contact width [m]
+    t_2 = edge_angle(c, a)  # angle of part 2 [-]
+    exists = (h > LEAST) & (c > 0) & (h < MOST)
+    return exists, h, t_2
+
+
+@shared
 def _tilt(a: Array, c: Array, R: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c]."""
-    h = a + c  # contact width [m]
+    exists, h, t_2 = _parts(a, c, R, phi)
     t_1 = edge_angle(a, c)  # angle of part 1 [-]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
     alpha = (t_1 * phi - h * involute(t_2) / (2 * R) - t_2 * np.maximum(-a, 0.0) / R) / np.pi
-    exists = (h > LEAST) & (c > 0) & (h < MOST)
     return where(exists, alpha, np.nan)
 
 
@@ -55,11 +73,8 @@ def tilt(a: Values, c: Values, *, R: Values, phi: Values) -> Array:
     """Tilt at which the contact is [-a, c].
 
         alpha = (phi*t_1 - h*involute(t_2)/(2*R) - t_2*Max(0, -a)/R)/pi
-        h = a + c
-        t_1 = edge_angle(a, c)
-        t_2 = edge_angle(c, a)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         involute(t) = -t*cos(t) + sin(t)
+        h, t_1, t_2, edge_angle: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
     antiderivatives checked by differentiation; quadrature of the defining integral of g(x).
@@ -86,12 +101,10 @@ def tilt(a: Values, c: Values, *, R: Values, phi: Values) -> Array:
 @shared
 def _load(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c]."""
-    h = a + c  # contact width [m]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
+    exists, h, t_2 = _parts(a, c, R, phi)
     P = (E_star * phi / 2) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0)) + (
         E_star / (16 * R)
     ) * h**2 * segment(t_2)
-    exists = (h > LEAST) & (c > 0) & (h < MOST)
     return where(exists, P, np.nan)
 
 
@@ -99,10 +112,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Arr
     """Normal load that makes the contact [-a, c].
 
         P = E_star*phi*sqrt(Max(0, a)*Max(0, c))/2 + E_star*h**2*segment(t_2)/(16*R)
-        h = a + c
-        t_2 = edge_angle(c, a)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        segment(t) = t - sin(t)*cos(t)
+        h, t_2, edge_angle, segment: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, P = (E*/2) int g'' w ds; (E*/2) I_1 of g(x) by quadrature.
@@ -130,12 +140,10 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Arr
 @shared
 def _moment(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c]."""
-    h = a + c  # contact width [m]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
+    exists, h, t_2 = _parts(a, c, R, phi)
     M = (E_star * phi / 8) * (a - c) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0)) + (
         E_star / (32 * R)
     ) * h**2 * ((a - c) * segment(t_2) - h * np.sin(t_2) ** 3 / 3)
-    exists = (h > LEAST) & (c > 0) & (h < MOST)
     return where(exists, M, np.nan)
 
 
@@ -144,10 +152,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> A
 
         M = E_star*phi*sqrt(Max(0, a)*Max(0, c))*(a - c)/8 + E_star*h**2*(-h*sin(t_2)**3/3 + (a
             - c)*segment(t_2))/(32*R)
-        h = a + c
-        t_2 = edge_angle(c, a)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        segment(t) = t - sin(t)*cos(t)
+        h, t_2, edge_angle, segment: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
     parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -(E*/2) (I_2 - mid I_1) of g(x) by quadrature.
@@ -176,14 +181,13 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> A
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
-    h = a + c  # contact width [m]
+    exists, h, t_2 = _parts(a, c, R, phi)
     cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
     sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
     p = (E_star * phi / (2 * np.pi)) * kink_logarithm(
         (2 * np.maximum(c, 0.0) / h) * (a + x), (2 * np.maximum(a, 0.0) / h) * (c - x), x
     ) + (E_star * h / (np.pi * R)) * end_pressure(t_2, cos_x, sin_x)
-    exists = (h > LEAST) & (c > 0) & (h < MOST) & (x == x)
+    exists = exists & (x == x)
     return where(exists, p, np.nan)
 
 
@@ -192,14 +196,12 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, phi:
 
         p = E_star*phi*kink_logarithm(2*(a + x)*Max(0, c)/h, 2*(c - x)*Max(0, a)/h, x)/(2*pi) +
             E_star*h*end_pressure(t_2, cos_x, sin_x)/(pi*R)
-        h = a + c
         cos_x = sqrt(Max(0, c - x)/h)
         sin_x = sqrt(Max(0, a + x)/h)
-        t_2 = edge_angle(c, a)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
         kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
         end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 +
             v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) + v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
+        h, t_2, edge_angle: see the docstring of the module
 
     Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
     punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).
@@ -228,9 +230,8 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, phi:
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
+    exists, h, t_2 = _parts(a, c, R, phi)
     cot_1 = root_ratio(c, a)  # cotangent of half the angle of x = 0 [-]
-    h = a + c  # contact width [m]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
     tan_1 = root_ratio(a, c)  # tangent of half the angle of x = 0 [-]
     K_N_left = (E_star * phi / np.pi) * cot_1 / np.sqrt(h) + (E_star / (np.pi * R)) * segment(
         t_2 / 2
@@ -238,7 +239,6 @@ def _K_N(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Edges:
     K_N_right = (E_star * phi / np.pi) * tan_1 / np.sqrt(h) + (E_star / (2 * np.pi * R)) * (
         t_2 + np.sin(t_2)
     ) * np.sqrt(h)
-    exists = (h > LEAST) & (c > 0) & (h < MOST)
     return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
@@ -247,13 +247,7 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Edge
 
         K_N_left = E_star*cot_1*phi/(pi*sqrt(h)) + E_star*sqrt(h)*segment(t_2/2)/(pi*R)
         K_N_right = E_star*phi*tan_1/(pi*sqrt(h)) + E_star*sqrt(h)*(t_2 + sin(t_2))/(2*pi*R)
-        cot_1 = root_ratio(c, a)
-        h = a + c
-        t_2 = edge_angle(c, a)
-        tan_1 = root_ratio(a, c)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        segment(t) = t - sin(t)*cos(t)
-        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
+        cot_1, h, t_2, tan_1, edge_angle, segment, root_ratio: see the docstring of the module
 
     K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
@@ -284,11 +278,10 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Edge
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
+    exists, h, t_2 = _parts(a, c, R, phi)
     cot_1 = root_ratio(c, a)  # cotangent of half the angle of x = 0 [-]
-    h = a + c  # contact width [m]
     k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [1/m]
     sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # sine of half the angle of x = 0 [-]
-    t_2 = edge_angle(c, a)  # angle of part 2 [-]
     cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # cosine of half the angle of x = 0 [-]
     k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [1/m]
     t_1 = edge_angle(a, c)  # angle of part 1 [-]
@@ -303,7 +296,7 @@ def _L_N(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Edges:
         - (E_star / (3 * np.pi)) * k_right * second_term(t_1, 0, cos_1) / np.sqrt(h)
         - (E_star / 4) * k_right / np.sqrt(h)
     )
-    exists = (h > LEAST) & (c > 0) & (h < MOST) & (R * phi > 0)
+    exists = exists & (R * phi > 0)
     return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
@@ -314,19 +307,13 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Edge
             + E_star*(-k_left + 1/R)*second_term(t_2, 0, sin_1)/(3*pi*sqrt(h))
         L_N_right = -E_star*k_right*second_term(t_1, 0, cos_1)/(3*pi*sqrt(h)) -
             E_star*k_right/(4*sqrt(h)) + E_star*phi*tan_1*(2*tan_1**2 + 3)/(6*pi*h**(3/2))
-        cot_1 = root_ratio(c, a)
-        h = a + c
         k_left = Piecewise((0, a > 0), (1/R, True))
         sin_1 = sqrt(Min(h, Max(0, a))/h)
-        t_2 = edge_angle(c, a)
         cos_1 = sqrt(Min(h, Max(0, c))/h)
         k_right = Piecewise((1/R, c > 0), (0, True))
-        t_1 = edge_angle(a, c)
-        tan_1 = root_ratio(a, c)
-        edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
-        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
         second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
             2*sin(t/2)/far, far > 0), (0, True))
+        cot_1, h, t_2, t_1, tan_1, edge_angle, root_ratio: see the docstring of the module
 
     L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
     of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the

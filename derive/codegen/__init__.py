@@ -7,6 +7,7 @@ printer   SymPy -> NumPy source
 contract  the functions that every module has
 function  the text of one function that has a formula
 example   numbers for the examples in docstrings
+common    what functions that are sums over parts share, which then stands in one place
 law       the text of the body's functions that the solvers call
 cuts      the points at which a body without closed formulas is cut for quadrature
 integrals the integrals that are evaluated for such a body, as its docstrings print them

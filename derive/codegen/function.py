@@ -8,17 +8,18 @@ Out: Python source, not yet formatted.
 """
 
 import textwrap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import mpmath
-from sympy import Expr, Gt, Lt, Min, Or, Piecewise, S, Symbol
+from sympy import Expr, Gt, Lt, Min, Or, Piecewise, S, Symbol, Tuple
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
 from derive.codegen.example import example_of
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.program import LEAST, MOST, Program
+from derive.codegen.program import LEAST, MOST, Common, Program
 from derive.codegen.rewrite import stable_program, summed_program
 from derive.proof.points import numeric
 from derive.proof.verdict import Proof, Verdict
@@ -26,6 +27,7 @@ from derive.reading.units import Dimension, dimension_of
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
 from derive.symbols import QUANTITIES, M, P, a, c, e, h, w, x
+from derive.theory.parts import Definition
 from derive.theory.segments import definitions_of
 
 LINE = 100
@@ -59,69 +61,77 @@ class FunctionText:
 
     def _made(self) -> Program:
         """The program of the function."""
-        if self._is_summed:
+        if self.is_summed:
             return summed_program(self.sheet, self.function.fields)
         return stable_program(self.sheet, self.outputs, self.example)
 
     @property
-    def _is_summed(self) -> bool:
+    def is_summed(self) -> bool:
         """Whether sums over the parts of a contact are evaluated in place of the formulas."""
         return all(self.sheet[name].computed is not None for name in self.function.formulas)
 
-    @property
-    def text(self) -> str:
-        """The whole function."""
+    def text(self, common: Common) -> str:
+        """The whole function, without what it has in common with others."""
         given, constants = map(by_name, (self.function.arguments, self.keywords))
         kind = f", {self.function.kind}" if self.function.kind else ""
         call = f"    return evaluated(_{self.function.name}, {given}, {constants}{kind})"
-        return "\n".join([*self._formula, "", "", self._head, call])
+        return "\n".join([*self._formula(common), "", "", self._head(common), call])
 
-    @property
-    def _head(self) -> str:
+    def _head(self, common: Common) -> str:
         """The signature and the docstring."""
         function = self.function
         given = [f"{s}: Values{' = 0.0' * (s == function.optional)}" for s in function.arguments]
         given += ["*", *(f"{s}: Values" for s in self.keywords)] if self.keywords else []
         signature = f"def {function.name}({', '.join(given)}) -> {function.kind or 'Array'}:"
-        return f"{signature}\n{textwrap.indent(self._docstring, ' ' * 4)}"
+        return f"{signature}\n{textwrap.indent(self._docstring(common), ' ' * 4)}"
 
     # ------------------------------------------------------------------ code
 
-    @property
-    def _formula(self) -> Iterator[str]:
+    def _formula(self, common: Common) -> Iterator[str]:
         """The private function that evaluates the formula; NaN where no such state exists."""
-        function, arguments, program = self.function, self.function.arguments, self.program
+        function, arguments = self.function, self.function.arguments
         given = ", ".join(f"{s}: Array" for s in (*arguments, *self.keywords))
         yield "@shared"
         yield f"def _{function.name}({given}) -> {function.kind or 'Array'}:"
         yield f'    """{function.summary}"""'
         if x in arguments and _is_drawn_in(self.sheet):
             yield "    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]"
-        varying = {x} if x in arguments else {*arguments}
-        for step in program.steps:
-            varying |= {step.symbol} if step.expr.free_symbols & varying else set()
-        printer = NumPyPrinter(varying)
-        yield from self._steps(printer)
+        if common.steps:
+            yield f"    {', '.join(common.names)} = _parts({', '.join(common.arguments)})"
+        printer = self.printer
+        yield from self.step_lines(step for step in self.program.steps if step not in common.steps)
         names = {}
         for field, source in function.fields:
             symbol = self.sheet[source].symbol if isinstance(source, str) else source
             names[field] = local(self.sheet, str(symbol))
-            value = printer.doprint(program.outputs[field])
+            value = printer.doprint(self.program.outputs[field])
             if value != names[field]:
                 yield f"    {names[field]} = {value}"
-        if "h" not in (str(step.symbol) for step in program.steps):
+        if "h" not in (str(step.symbol) for step in self.program.steps):
             yield "    h = a + c  # contact width [m]"
-        yield f"    exists = {' & '.join(f'({check})' for check in self._checks)}"
+        checks = [check for check in self.checks if check not in common.checks]
+        if checks:
+            yield f"    exists = {' & '.join(['exists'] * bool(common.checks) + checks)}"
         results = ", ".join(f"where(exists, {name}, np.nan)" for name in names.values())
         yield f"    return {function.kind}({results})" if function.kind else f"    return {results}"
 
-    def _steps(self, printer: NumPyPrinter) -> Iterator[str]:
-        """The steps, each with its meaning and unit behind it, or before it if it is long."""
+    @cached_property
+    def printer(self) -> NumPyPrinter:
+        """A printer that knows what varies along an array: x, or else what depends on the edges."""
+        arguments = self.function.arguments
+        varying = {x} if x in arguments else {*arguments}
+        for step in self.program.steps:
+            varying |= {step.symbol} if step.expr.free_symbols & varying else set()
+        return NumPyPrinter(varying)
+
+    def step_lines(self, steps: Iterable[Definition]) -> Iterator[str]:
+        """Code for steps, each with its meaning and unit behind it, or before it if it is long."""
         known: dict[Symbol, Dimension] = dict(self.sheet.dimensions)
         for step in self.program.steps:
-            dimension = known[step.symbol] = dimension_of(step.expr, known) or Dimension()
-            unit = "-" if str(dimension) == "1" else str(dimension)
-            line = f"    {step.symbol} = {printer.doprint(step.expr)}"
+            known[step.symbol] = dimension_of(step.expr, known) or Dimension()
+        for step in steps:
+            unit = "-" if str(known[step.symbol]) == "1" else str(known[step.symbol])
+            line = f"    {step.symbol} = {self.printer.doprint(step.expr)}"
             note = f"# {step.meaning} [{unit}]"
             if len(line + note) + 2 <= LINE:
                 yield f"{line}  {note}"
@@ -129,8 +139,8 @@ class FunctionText:
                 yield f"    {note}"
                 yield line
 
-    @property
-    def _checks(self) -> Iterator[str]:
+    @cached_property
+    def checks(self) -> list[str]:
         """Conditions under which the state exists; those on the constants are checked in arrays.py.
 
         Lengths are limited so that their products stay within the range of float64.  A contact that
@@ -141,26 +151,24 @@ class FunctionText:
         if {a > 0, c > 0} <= {*checked}:  # one comparison for both edges saves an array operation
             checked = [cond for cond in checked if cond not in (a > 0, c > 0)] + [Min(a, c) > LEAST]
         least = [Gt(_width, LEAST) if cond == (h > 0) else cond for cond in checked]
-        yield from map(NumPyPrinter().doprint, (*least, Lt(_width, MOST)))
+        printed = [NumPyPrinter().doprint(cond) for cond in (*least, Lt(_width, MOST))]
         # at a corner `fmax` replaces 0/0 by zero, and so a NaN in x, too
         if self.function.name == "pressure" and any(
             k.kink.is_corner for k in self.sheet.frame.kinks
         ):
-            yield "x == x"
+            printed.append("x == x")
         # a formula with pieces uses the parameters of one
         own = [str(q.symbol) for q in self.sheet.geometry.parameters]
-        if self._is_summed and len(own) > 1 and any(e.has(Piecewise) for e in self.program.exprs):
-            yield f"{' * '.join(own)} > 0"
+        if self.is_summed and len(own) > 1 and any(e.has(Piecewise) for e in self.program.exprs):
+            printed.append(f"{' * '.join(own)} > 0")
+        return [f"({check})" for check in printed]
 
     # ------------------------------------------------------------------ docstring
 
-    @property
-    def _docstring(self) -> str:
+    def _docstring(self, common: Common) -> str:
         lines = [self.function.summary, ""]
-        for equation in self._equations:
-            lines += textwrap.wrap(
-                equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
-            )
+        for equation in self._equations(common):
+            lines += equation_lines(equation, LINE - 8)
         lines += ["", *textwrap.wrap(f"{self._proofs}{self.note}", LINE - 4)]
         lines += ["", "Parameters", "----------", *self._parameters]
         kind, fields = self._returns
@@ -168,23 +176,30 @@ class FunctionText:
         lines += ["", "Examples", "--------", *self._doctest]
         return f'"""{inside_quotes(chr(10).join(lines))}\n"""'
 
-    @property
-    def _equations(self) -> Iterator[str]:
+    @cached_property
+    def defined(self) -> Mapping[Expr, Expr]:
+        """Definitions of the symbols and functions in the equations."""
+        if self.is_summed:
+            steps: dict[Expr, Expr] = {step.symbol: step.expr for step in self.program.steps}
+            return steps | definitions_of(self.program.exprs)
+        defined = {**self.sheet.defined_in(*self.function.formulas)}
+        shown = Tuple(*map(self.sheet.shown, self.function.formulas))
+        if any(str(symbol) == "e" for symbol in shown.free_symbols):
+            defined[e] = M / P
+        return defined
+
+    def _equations(self, common: Common) -> Iterator[str]:
         """The formulas with the definitions of their symbols: the sums, if these are evaluated."""
         sheet, names = self.sheet, self.function.formulas
-        if self._is_summed:
-            shown = [*self.program.outputs.values()]
-            defined: dict[Expr, Expr] = {step.symbol: step.expr for step in self.program.steps}
-            defined |= definitions_of(self.program.exprs)
-        else:
-            shown = [sheet.shown(name) for name in names]
-            defined = {**sheet.defined_in(*names)}
-            if any(str(symbol) == "e" for expr in shown for symbol in expr.free_symbols):
-                defined[e] = M / P
+        shown = self.program.outputs.values() if self.is_summed else map(sheet.shown, names)
         for name, expr in zip(names, shown, strict=True):
             yield f"{sheet[name].symbol} = {text_of(expr)}"
-        for symbol, definition in defined.items():
-            yield f"{symbol} = {text_of(definition)}"
+        yield from definition_lines(
+            {k: v for k, v in self.defined.items() if k not in common.defined}
+        )
+        shared = [str(k).partition("(")[0] for k in self.defined if k in common.defined]
+        if shared:
+            yield f"{', '.join(shared)}: see the docstring of the module"
 
     @property
     def _parameters(self) -> Iterator[str]:
@@ -246,6 +261,17 @@ class FunctionText:
         else:
             yield f'>>> f"{{{self.function.name}({call}):.6g}}"'
             yield repr(shown[0])
+
+
+def definition_lines(defined: Mapping[Expr, Expr]) -> Iterator[str]:
+    """Definitions as equations."""
+    for symbol, definition in defined.items():
+        yield f"{symbol} = {text_of(definition)}"
+
+
+def equation_lines(equation: str, width: int) -> list[str]:
+    """An equation as a docstring prints it."""
+    return textwrap.wrap(equation, width, initial_indent=" " * 4, subsequent_indent=" " * 8)
 
 
 def by_name(symbols: Iterable[Symbol]) -> str:

@@ -11,7 +11,7 @@ from sympy import Expr, Function, Piecewise, factor, simplify
 
 from derive.body.piece import Piece
 from derive.codegen.function import FunctionText, by_name
-from derive.codegen.program import Program
+from derive.codegen.program import Common, Program
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
 from derive.symbols import x
@@ -28,15 +28,15 @@ class IntegratedText(FunctionText):
         """No program: no formula is rewritten, and the trial of the module tests the rest."""
         return Program({})
 
-    @property
-    def text(self) -> str:
+    def text(self, common: Common) -> str:
         """The whole function, which passes its arguments on to the law of the body."""
         own = by_name(q.symbol for q in self.sheet.geometry.parameters)
         passed = ", ".join(map(str, (*self.function.arguments, *self.function.constants)))
-        return f"{self._head}\n    return cycle.{self.function.name}(_BODY, {own}, {passed})"
+        return (
+            f"{self._head(common)}\n    return cycle.{self.function.name}(_BODY, {own}, {passed})"
+        )
 
-    @property
-    def _equations(self) -> Iterator[str]:
+    def _equations(self, common: Common) -> Iterator[str]:
         """The integrals that are evaluated; a closed formula, if there is one, is on the sheet."""
         yield from lines_of(self.sheet, self.function.formulas)
 

@@ -9,15 +9,25 @@ import ast
 import subprocess
 import textwrap
 from collections.abc import Iterator
+from itertools import chain
 
 from ruff import find_ruff_bin
 
+from derive.codegen.common import common_of, common_text
 from derive.codegen.contract import CONTRACT
 from derive.codegen.curve import CurveText
-from derive.codegen.function import LINE, FunctionText, demands_of, inside_quotes
+from derive.codegen.function import (
+    LINE,
+    FunctionText,
+    definition_lines,
+    demands_of,
+    equation_lines,
+    inside_quotes,
+)
 from derive.codegen.integrals import IntegratedText
 from derive.codegen.law import LawText
 from derive.codegen.plan import is_integrated, is_solved
+from derive.codegen.program import Common
 from derive.codegen.publish import FULL_STICK, MARK
 from derive.codegen.solved import solved_functions
 from derive.sheet.formulas import FormulaSheet
@@ -54,10 +64,16 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     solved = solved_functions(sheet)
     given = {f.name for f in CONTRACT if not is_solved(sheet, f)}
     bound = {name: text for name, text in solved.items() if name not in given}
-    code = "\n\n\n".join(["\n\n".join(_functions(sheet)), *bound.values()])
+    texts = [*_texts(sheet)]
+    common = common_of([text for text in texts if text.is_summed])
+    functions = [text.text(common) for text in texts]
+    if common.steps:
+        functions.insert(0, "\n".join(common_text(texts[0], common)))
+    law = (CurveText if is_integrated(sheet) else LawText)(sheet).text
+    code = "\n\n\n".join([*functions, law, *bound.values()])
     stuck = [f.name for f in CONTRACT if not f.geometric]
     return formatted(f'''{MARK}
-"""{inside_quotes(_heading(sheet, source))}
+"""{inside_quotes(_heading(sheet, source, common))}
 """
 
 import numpy as np
@@ -72,7 +88,7 @@ from .{FULL_STICK} import {", ".join(stuck)}
 ''')
 
 
-def _heading(sheet: FormulaSheet, source: str) -> str:
+def _heading(sheet: FormulaSheet, source: str, common: Common) -> str:
     """The docstring of the module: the body, its profile, and the symbols of its formulas."""
     origin = f"g(x) = {text_of(sheet.geometry.g)}, from {source}."
     paragraphs = [textwrap.fill(sheet.geometry.title, LINE - 4)]
@@ -80,6 +96,9 @@ def _heading(sheet: FormulaSheet, source: str) -> str:
     demands = demands_of(sheet)
     shapes = SHAPES.replace("are positive", f"are positive, {demands}") if demands else SHAPES
     paragraphs.append(textwrap.fill(shapes, LINE))
+    if common.defined:
+        lines = (equation_lines(line, LINE) for line in definition_lines(common.defined))
+        paragraphs += ["The formulas of several functions use", "\n".join(chain(*lines))]
     return "\n\n".join(paragraphs)
 
 
@@ -106,7 +125,7 @@ def _offered(names: list[str]) -> str:
 def full_stick_text(sheet: FormulaSheet) -> str:
     """The module of the functions that depend on no body; any sheet gives the same text."""
     made = (f for f in CONTRACT if not f.geometric)
-    code = "\n\n".join(FunctionText(sheet, f).text for f in made)
+    code = "\n\n".join(FunctionText(sheet, f).text(Common()) for f in made)
     return formatted(f'''{MARK}
 """Full stick: the change in shear traction next to the edges of a contact that does not slip.
 
@@ -122,14 +141,13 @@ import numpy as np
 ''')
 
 
-def _functions(sheet: FormulaSheet) -> Iterator[str]:
-    """The text of every function that has a formula, and of the law of the body."""
+def _texts(sheet: FormulaSheet) -> Iterator[FunctionText]:
+    """The text of every function that has a formula."""
     integrated = is_integrated(sheet)
     for function in CONTRACT:
         if function.geometric and not is_solved(sheet, function):
             text = IntegratedText if integrated and P not in function.arguments else FunctionText
-            yield text(sheet, function).text
-    yield (CurveText if integrated else LawText)(sheet).text
+            yield text(sheet, function)
 
 
 def _imports(code: str, always: tuple[str, ...] = ()) -> str:

@@ -1,7 +1,7 @@
 """The steps and outputs of a generated function, before they are printed as text."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from sympy import Expr, Symbol
 
@@ -9,6 +9,27 @@ from derive.theory.parts import Definition
 
 LEAST, MOST = Symbol("LEAST", positive=True), Symbol("MOST", positive=True)
 """The shortest and the longest length whose products stay well inside float64."""
+
+
+@dataclass(frozen=True)
+class Common:
+    """What the functions of a body have in common, and state once in its module.
+
+    arguments  of the function that computes the steps
+    steps      that all functions need
+    checks     the conditions of all functions, as code
+    defined    what several functions print
+    """
+
+    arguments: tuple[str, ...] = ()
+    steps: tuple[Definition, ...] = ()
+    checks: tuple[str, ...] = ()
+    defined: Mapping[Expr, Expr] = field(default_factory=dict)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the results of that function."""
+        return ["exists", *(str(step.symbol) for step in self.steps)]
 
 
 @dataclass(frozen=True)
