@@ -3,11 +3,10 @@
 
 g(x) = R - sqrt(R**2 - x**2), from derive/geometries/circular_arc.py.
 
-Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
 Results are NaN unless the constants of material and geometry are positive and the contact width is
-between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
-number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
-do not broadcast.
+between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 """
 
 import numpy as np
@@ -49,8 +48,7 @@ def tilt(a: Values, c: Values, *, R: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     R : radius of the arc [m]
 
     Returns
@@ -63,7 +61,7 @@ def tilt(a: Values, c: Values, *, R: Values) -> Array:
     >>> f"{tilt(0.75, 0.5, R=1.0):.6g}"
     '0.18925'
     """
-    return cycle.tilt(_BODY, {"R": R}, a, c)
+    return cycle.tilt(*_of(R), a, c)
 
 
 def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
@@ -77,8 +75,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; radius of the arc [m]
 
     Returns
@@ -91,7 +88,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
     >>> f"{load(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.386889'
     """
-    return cycle.load(_BODY, {"R": R}, a, c, E_star)
+    return cycle.load(*_of(R), a, c, E_star)
 
 
 def moment(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
@@ -105,8 +102,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; radius of the arc [m]
 
     Returns
@@ -119,7 +115,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
     >>> f"{moment(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.0597185'
     """
-    return cycle.moment(_BODY, {"R": R}, a, c, E_star)
+    return cycle.moment(*_of(R), a, c, E_star)
 
 
 def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
@@ -136,8 +132,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> A
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; radius of the arc [m]
 
     Returns
@@ -150,7 +145,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> A
     >>> f"{pressure(0.5, 0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0'
     """
-    return cycle.pressure(_BODY, {"R": R}, x, a, c, E_star)
+    return cycle.pressure(*_of(R), x, a, c, E_star)
 
 
 def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
@@ -162,15 +157,13 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
             c))/(pi*sqrt(a + c))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    K_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
-    integral of g(x), at the left edge.  K_N_right: checked numerically to 50 digits at 24 points.
-    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature,
-    in equal forms that keep their digits (runtime/pieces.py).
+    Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
+    g(x), at that edge.  Evaluated by quadrature, in equal forms that keep their digits
+    (runtime/pieces.py).
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; radius of the arc [m]
 
     Returns
@@ -183,7 +176,7 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
     >>> [f"{v:.6g}" for v in K_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['1.09433', '0.711794']
     """
-    return cycle.K_N(_BODY, {"R": R}, a, c, E_star)
+    return cycle.K_N(*_of(R), a, c, E_star)
 
 
 def L_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
@@ -195,15 +188,13 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
             + g''(xi))*(2*a + 3*c - xi)/(c - xi)**2, (xi, -a, c))/(6*pi*(a + c)**(3/2)))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    L_N_left: checked numerically to 50 digits at 24 points.  Route: quadrature of the defining
-    integral of g(x), at the left edge.  L_N_right: checked numerically to 50 digits at 24 points.
-    Route: quadrature of the defining integral of g(x), at the right edge.  Evaluated by quadrature,
-    in equal forms that keep their digits (runtime/pieces.py).
+    Checked numerically to 50 digits at 24 points.  Route: quadrature of the defining integral of
+    g(x), at that edge.  Evaluated by quadrature, in equal forms that keep their digits
+    (runtime/pieces.py).
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; radius of the arc [m]
 
     Returns
@@ -216,7 +207,7 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
     >>> [f"{v:.6g}" for v in L_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['-2.63694', '-0.70202']
     """
-    return cycle.L_N(_BODY, {"R": R}, a, c, E_star)
+    return cycle.L_N(*_of(R), a, c, E_star)
 
 
 @kernel
@@ -293,6 +284,11 @@ def _law_breaks(own: Array) -> Array:
 _BODY = Body(__name__, _law_pressure, _law_state, _law_slope, _law_series, _law_breaks)
 
 
+def _of(R: Values) -> tuple[Body, dict[str, Values]]:
+    """The body, and its parameters by name."""
+    return _BODY, {"R": R}
+
+
 def contact(P: Values, M: Values = 0.0, *, E_star: Values, R: Values) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -319,7 +315,7 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, R: Values) -> Contact
     >>> f"{load(a, c, **law):.6g}, {moment(a, c, **law):.6g}"
     '0.386889, 0.0597185'
     """
-    return cycle.contact(_BODY, {"R": R}, P, M, E_star)
+    return cycle.contact(*_of(R), P, M, E_star)
 
 
 def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, R: Values) -> Contact:
@@ -348,7 +344,7 @@ def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, R: Values
     >>> f"{load(a, c, **law):.6g}"
     '0.386889'
     """
-    return cycle.contact_at_tilt(_BODY, {"R": R}, P, alpha, E_star)
+    return cycle.contact_at_tilt(*_of(R), P, alpha, E_star)
 
 
 def stick_zone(
@@ -383,8 +379,7 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
-        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
         loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
@@ -399,7 +394,7 @@ def stick_zone(
     >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     ('MODERATE', '0.338889')
     """
-    return cycle.stick_zone(_BODY, {"R": R}, (first, second, dQ, dsigma, f, E_star), mixed)
+    return cycle.stick_zone(*_of(R), (first, second, dQ, dsigma, f, E_star), mixed)
 
 
 def why(
@@ -416,8 +411,7 @@ def why(
 
     Parameters
     ----------
-    first, second, dQ, dsigma : as in stick_zone, of one cycle
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
+    first, second, dQ, dsigma, f, E_star, R : as in stick_zone, of one cycle
 
     Returns
     -------
@@ -436,7 +430,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"R": R}, (first, second, dQ, dsigma, f, E_star), "")
+    return cycle.why(*_of(R), (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -450,15 +444,12 @@ def tension_threshold(
 
     Parameters
     ----------
-    first, second : Contact at the start and at the end of the half-cycle that raises Q
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
+    first, second, dQ, f, E_star, R : as in stick_zone
 
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN if the two contacts differ.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which means sliding.
+        lower [Pa], upper [Pa].  NaN if the two contacts differ.
 
     Examples
     --------
@@ -468,7 +459,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.0977848'
     """
-    return cycle.tension_threshold(_BODY, {"R": R}, (first, second, dQ, 0.0, f, E_star))
+    return cycle.tension_threshold(*_of(R), (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -495,17 +486,14 @@ def slip_zones(
     Parameters
     ----------
     a, c : the contact [-a, c] now [m]
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
+    dQ, dsigma, f, E_star, R : as in stick_zone
     da, dc : how much further out the edges are than at the other end of the half-cycle [m]
     order : order of the series: 1 or 2
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.
 
     Examples
     --------
@@ -514,7 +502,7 @@ def slip_zones(
     >>> [f"{v:.6g}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
     ['0.0249756', '0.0383983']
     """
-    return cycle.slip_zones(_BODY, {"R": R}, a, c, dQ, dsigma, f, E_star, da, dc, order=order)
+    return cycle.slip_zones(*_of(R), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def slip_error(
@@ -537,15 +525,12 @@ def slip_error(
 
     Parameters
     ----------
-    a, c, dQ, dsigma, da, dc : as in slip_zones
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
-    order : order of the series: 1 or 2
+    a, c, dQ, dsigma, f, E_star, R, da, dc, order : as in slip_zones
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both orders give slip zones.
 
     Examples
     --------
@@ -554,7 +539,7 @@ def slip_error(
     >>> bool(error.left > 0)
     True
     """
-    return cycle.slip_error(_BODY, {"R": R}, a, c, dQ, dsigma, f, E_star, da, dc, order=order)
+    return cycle.slip_error(*_of(R), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def shear_change(
@@ -578,8 +563,7 @@ def shear_change(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
+    first, second, dQ, dsigma, f, E_star, R : as in stick_zone
 
     Returns
     -------
@@ -587,7 +571,7 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        different contacts.
 
     Examples
     --------
@@ -596,7 +580,7 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.048, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(_BODY, {"R": R}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.shear_change(*_of(R), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def shear(
@@ -625,7 +609,7 @@ def shear(
     x : position along the interface, positive to the right [m]
     contact : Contact under the constant normal loads
     Q, sigma : shear load [N/m] and differential bulk tension [Pa] reached in the first loading
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
+    f, E_star, R : as in stick_zone
     dQ, dsigma : decrease in both since then [N/m], [Pa]
 
     Returns
@@ -647,8 +631,7 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    return cycle.shear(_BODY, {"R": R}, x, contact, loads, f, E_star)
+    return cycle.shear(*_of(R), x, contact, (Q, sigma, dQ, dsigma), f, E_star)
 
 
 def slip_range(
@@ -670,14 +653,13 @@ def slip_range(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
+    first, second, dQ, dsigma, f, E_star, R : as in stick_zone
 
     Returns
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        or FULL_STICK.
 
     Examples
     --------
@@ -686,7 +668,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(_BODY, {"R": R}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.slip_range(*_of(R), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -707,21 +689,15 @@ def march(
 
     Parameters
     ----------
-    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
-        at every instant, along the last axis
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
+    P, M, Q, sigma, f, E_star, R : as in history
 
     Returns
     -------
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
-        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
-        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
-        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
-        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
-        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
-        not cycles.
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE,
+        NOT_CLOSED, SLIDING, NO_STICK or NONE (docs/slip.md).  Use steady_cycle for cycles out of
+        phase, and history for load histories that are not cycles.
 
     Raises
     ------
@@ -736,8 +712,7 @@ def march(
     >>> march(0.386889, 0.0597185, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.march(_BODY, {"R": R}, given)
+    return public.march(*_of(R), (P, M, Q, sigma, f, E_star))
 
 
 def history(
@@ -767,7 +742,7 @@ def history(
     ----------
     P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
         at every instant, along the last axis; between two instants all loads vary linearly
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
+    f, E_star, R : as in stick_zone
     x : positions at which to return shear and slip; none unless given [m]
     tol : target error: m and n relative to a + c, shear relative to f P/(a + c)
 
@@ -793,8 +768,7 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.history(_BODY, {"R": R}, given, x, tol)
+    return public.history(*_of(R), (P, M, Q, sigma, f, E_star), x, tol)
 
 
 def steady_cycle(
@@ -821,8 +795,7 @@ def steady_cycle(
     Parameters
     ----------
     P, M, Q, sigma : as in history; the loads return from the last instant to the first
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; radius of the arc [m]
-    x : positions at which to return shear and slip; none unless given [m]
+    f, E_star, R, x : as in history
     tol : target error of m and n, relative to a + c
 
     Returns
@@ -847,5 +820,4 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '0.338889'
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.steady_cycle(_BODY, {"R": R}, given, x, tol)
+    return public.steady_cycle(*_of(R), (P, M, Q, sigma, f, E_star), x, tol)

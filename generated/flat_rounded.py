@@ -3,11 +3,10 @@
 
 g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
 
-Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
 Results are NaN unless the constants of material and geometry are positive and the contact width is
-between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
-number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
-do not broadcast.
+between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 
 The formulas of several functions use
 
@@ -60,7 +59,6 @@ def _parts(a: Array, c: Array, R: Array, b: Array) -> tuple[Array, ...]:
 
 @shared
 def _tilt(a: Array, c: Array, R: Array, b: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
     exists, h, t_1, t_3 = _parts(a, c, R, b)
     alpha = (
         h * involute(t_1) / (2 * R)
@@ -84,8 +82,7 @@ def tilt(a: Values, c: Values, *, R: Values, b: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     R, b : radius of the rounded edges [m]; half-width of the flat [m]
 
     Returns
@@ -103,7 +100,6 @@ def tilt(a: Values, c: Values, *, R: Values, b: Values) -> Array:
 
 @shared
 def _load(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Array:
-    """Normal load that makes the contact [-a, c]."""
     exists, h, t_1, t_3 = _parts(a, c, R, b)
     P = (E_star / (16 * R)) * h**2 * (segment(t_1) + segment(t_3))
     return where(exists, P, np.nan)
@@ -120,8 +116,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Array
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, b : composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat
         [m]
 
@@ -140,7 +135,6 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Array
 
 @shared
 def _moment(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Array:
-    """Moment that makes the contact [-a, c]."""
     exists, h, t_1, t_3 = _parts(a, c, R, b)
     M = (
         (E_star / (32 * R))
@@ -162,8 +156,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Arr
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, b : composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat
         [m]
 
@@ -182,11 +175,10 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Arr
 
 @shared
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Array:
-    """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     exists, h, t_1, t_3 = _parts(a, c, R, b)
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # half-angle cosine at x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # half-angle sine at x [-]
     p = (E_star * h / (np.pi * R)) * (
         end_pressure(t_1, sin_x, cos_x) + end_pressure(t_3, cos_x, sin_x)
     )
@@ -209,8 +201,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, b: V
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, b : composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat
         [m]
 
@@ -229,7 +220,6 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, b: V
 
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Edges:
-    """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     exists, h, t_1, t_3 = _parts(a, c, R, b)
     K_N_left = (E_star / (np.pi * R)) * (t_1 / 2 + np.sin(t_1) / 2 + segment(t_3 / 2)) * np.sqrt(h)
     K_N_right = (E_star / (np.pi * R)) * (t_3 / 2 + np.sin(t_3) / 2 + segment(t_1 / 2)) * np.sqrt(h)
@@ -243,16 +233,13 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
         K_N_right = E_star*sqrt(h)*(t_3/2 + sin(t_3)/2 + segment(t_1/2))/(pi*R)
         h, t_1, t_3, edge_angle, segment: see the docstring of the module
 
-    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
-    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
-    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
-    quadrature of the defining integral of g(x), at the right edge.
+    of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, b : composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat
         [m]
 
@@ -271,17 +258,12 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
 
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, R: Array, b: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     exists, h, t_1, t_3 = _parts(a, c, R, b)
-    # cosine of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)  # half-angle cosine at x = -b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)  # half-angle cosine at x = b [-]
     k_left = where(a - b > 0, 1 / R, where(a + b > 0, 0, 1 / R))  # g'' at the left edge [1/m]
-    # sine of half the angle of x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)  # half-angle sine at x = -b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)  # half-angle sine at x = b [-]
     # angle of part 2 [-]
     t_2 = 2 * np.arctan2(
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
@@ -319,16 +301,12 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values, b: Values) -> Edges:
             2*sin(t/2)/far, far > 0), (0, True))
         h, t_3, t_1, edge_angle: see the docstring of the module
 
-    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
-    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
-    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
-    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
-    g(x), at the right edge.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; quadrature of the defining integral of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, b : composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat
         [m]
 
@@ -380,6 +358,11 @@ def _law_breaks(own: Array) -> Array:
 _BODY = Body(__name__, _law_pressure, _law_state, _law_slope, _law_series, _law_breaks)
 
 
+def _of(R: Values, b: Values) -> tuple[Body, dict[str, Values]]:
+    """The body, and its parameters by name."""
+    return _BODY, {"R": R, "b": b}
+
+
 def contact(P: Values, M: Values = 0.0, *, E_star: Values, R: Values, b: Values) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -407,7 +390,7 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, R: Values, b: Values)
     >>> f"{load(a, c, **law):.6g}, {moment(a, c, **law):.6g}"
     '2.53246, 1.82431'
     """
-    return cycle.contact(_BODY, {"R": R, "b": b}, P, M, E_star)
+    return cycle.contact(*_of(R, b), P, M, E_star)
 
 
 def contact_at_tilt(
@@ -439,7 +422,7 @@ def contact_at_tilt(
     >>> f"{load(a, c, **law):.6g}"
     '2.53246'
     """
-    return cycle.contact_at_tilt(_BODY, {"R": R, "b": b}, P, alpha, E_star)
+    return cycle.contact_at_tilt(*_of(R, b), P, alpha, E_star)
 
 
 def stick_zone(
@@ -476,8 +459,7 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
-        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
         loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
@@ -492,7 +474,7 @@ def stick_zone(
     >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     ('MODERATE', '2.21246')
     """
-    return cycle.stick_zone(_BODY, {"R": R, "b": b}, (first, second, dQ, dsigma, f, E_star), mixed)
+    return cycle.stick_zone(*_of(R, b), (first, second, dQ, dsigma, f, E_star), mixed)
 
 
 def why(
@@ -510,9 +492,7 @@ def why(
 
     Parameters
     ----------
-    first, second, dQ, dsigma : as in stick_zone, of one cycle
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
+    first, second, dQ, dsigma, f, E_star, R, b : as in stick_zone, of one cycle
 
     Returns
     -------
@@ -531,7 +511,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"R": R, "b": b}, (first, second, dQ, dsigma, f, E_star), "")
+    return cycle.why(*_of(R, b), (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -545,16 +525,12 @@ def tension_threshold(
 
     Parameters
     ----------
-    first, second : Contact at the start and at the end of the half-cycle that raises Q
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
+    first, second, dQ, f, E_star, R, b : as in stick_zone
 
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN if the two contacts differ.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which means sliding.
+        lower [Pa], upper [Pa].  NaN if the two contacts differ.
 
     Examples
     --------
@@ -564,7 +540,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.162975'
     """
-    return cycle.tension_threshold(_BODY, {"R": R, "b": b}, (first, second, dQ, 0.0, f, E_star))
+    return cycle.tension_threshold(*_of(R, b), (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -592,18 +568,14 @@ def slip_zones(
     Parameters
     ----------
     a, c : the contact [-a, c] now [m]
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
+    dQ, dsigma, f, E_star, R, b : as in stick_zone
     da, dc : how much further out the edges are than at the other end of the half-cycle [m]
     order : order of the series: 1 or 2
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.
 
     Examples
     --------
@@ -612,9 +584,7 @@ def slip_zones(
     >>> [f"{v:.6g}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
     ['0.10337', '0.120929']
     """
-    return cycle.slip_zones(
-        _BODY, {"R": R, "b": b}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_zones(*_of(R, b), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def slip_error(
@@ -638,16 +608,12 @@ def slip_error(
 
     Parameters
     ----------
-    a, c, dQ, dsigma, da, dc : as in slip_zones
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
-    order : order of the series: 1 or 2
+    a, c, dQ, dsigma, f, E_star, R, b, da, dc, order : as in slip_zones
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both orders give slip zones.
 
     Examples
     --------
@@ -656,9 +622,7 @@ def slip_error(
     >>> bool(error.left > 0)
     True
     """
-    return cycle.slip_error(
-        _BODY, {"R": R, "b": b}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_error(*_of(R, b), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def shear_change(
@@ -683,9 +647,7 @@ def shear_change(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
+    first, second, dQ, dsigma, f, E_star, R, b : as in stick_zone
 
     Returns
     -------
@@ -693,7 +655,7 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        different contacts.
 
     Examples
     --------
@@ -702,7 +664,7 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.32, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(_BODY, {"R": R, "b": b}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.shear_change(*_of(R, b), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def shear(
@@ -732,8 +694,7 @@ def shear(
     x : position along the interface, positive to the right [m]
     contact : Contact under the constant normal loads
     Q, sigma : shear load [N/m] and differential bulk tension [Pa] reached in the first loading
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
+    f, E_star, R, b : as in stick_zone
     dQ, dsigma : decrease in both since then [N/m], [Pa]
 
     Returns
@@ -755,8 +716,7 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    return cycle.shear(_BODY, {"R": R, "b": b}, x, contact, loads, f, E_star)
+    return cycle.shear(*_of(R, b), x, contact, (Q, sigma, dQ, dsigma), f, E_star)
 
 
 def slip_range(
@@ -779,15 +739,13 @@ def slip_range(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
+    first, second, dQ, dsigma, f, E_star, R, b : as in stick_zone
 
     Returns
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        or FULL_STICK.
 
     Examples
     --------
@@ -796,7 +754,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(_BODY, {"R": R, "b": b}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.slip_range(*_of(R, b), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -818,22 +776,15 @@ def march(
 
     Parameters
     ----------
-    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
-        at every instant, along the last axis
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
+    P, M, Q, sigma, f, E_star, R, b : as in history
 
     Returns
     -------
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
-        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
-        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
-        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
-        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
-        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
-        not cycles.
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE,
+        NOT_CLOSED, SLIDING, NO_STICK or NONE (docs/slip.md).  Use steady_cycle for cycles out of
+        phase, and history for load histories that are not cycles.
 
     Raises
     ------
@@ -848,8 +799,7 @@ def march(
     >>> march(2.53246, 1.82431, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.march(_BODY, {"R": R, "b": b}, given)
+    return public.march(*_of(R, b), (P, M, Q, sigma, f, E_star))
 
 
 def history(
@@ -880,8 +830,7 @@ def history(
     ----------
     P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
         at every instant, along the last axis; between two instants all loads vary linearly
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
+    f, E_star, R, b : as in stick_zone
     x : positions at which to return shear and slip; none unless given [m]
     tol : target error: m and n relative to a + c, shear relative to f P/(a + c)
 
@@ -907,8 +856,7 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.history(_BODY, {"R": R, "b": b}, given, x, tol)
+    return public.history(*_of(R, b), (P, M, Q, sigma, f, E_star), x, tol)
 
 
 def steady_cycle(
@@ -936,9 +884,7 @@ def steady_cycle(
     Parameters
     ----------
     P, M, Q, sigma : as in history; the loads return from the last instant to the first
-    f, E_star, R, b : coefficient of friction [-]; composite modulus [Pa]; radius of the rounded
-        edges [m]; half-width of the flat [m]
-    x : positions at which to return shear and slip; none unless given [m]
+    f, E_star, R, b, x : as in history
     tol : target error of m and n, relative to a + c
 
     Returns
@@ -963,5 +909,4 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '2.21246'
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.steady_cycle(_BODY, {"R": R, "b": b}, given, x, tol)
+    return public.steady_cycle(*_of(R, b), (P, M, Q, sigma, f, E_star), x, tol)

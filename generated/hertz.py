@@ -3,11 +3,10 @@
 
 g(x) = x**2/(2*R), from derive/geometries/hertz.py.
 
-Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
 Results are NaN unless the constants of material and geometry are positive and the contact width is
-between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
-number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
-do not broadcast.
+between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 """
 
 import numpy as np
@@ -41,7 +40,6 @@ __all__ += ["tension_threshold", "tilt", "why"]
 
 @shared
 def _contact(P: Array, M: Array, E_star: Array, R: Array) -> Contact:
-    """Contact and tilt under the load P and the moment M."""
     e = M / P  # lever arm of the load [m]
     a = e + 2 * np.sqrt((R / (np.pi * E_star)) * P)
     c = 2 * np.sqrt((R / (np.pi * E_star)) * P) - e
@@ -84,7 +82,6 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, R: Values) -> Contact
 
 @shared
 def _contact_at_tilt(P: Array, alpha: Array, E_star: Array, R: Array) -> Contact:
-    """Contact under the load P at the tilt alpha."""
     a = alpha * R + 2 * np.sqrt((R / (np.pi * E_star)) * P)
     c = 2 * np.sqrt((R / (np.pi * E_star)) * P) - alpha * R
     h = a + c  # contact width [m]
@@ -123,7 +120,6 @@ def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, R: Values
 
 @shared
 def _tilt(a: Array, c: Array, R: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
     alpha = (a - c) / (2 * R)
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
@@ -140,8 +136,7 @@ def tilt(a: Values, c: Values, *, R: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     R : relative radius of curvature [m]
 
     Returns
@@ -159,7 +154,6 @@ def tilt(a: Values, c: Values, *, R: Values) -> Array:
 
 @shared
 def _load(a: Array, c: Array, E_star: Array, R: Array) -> Array:
-    """Normal load that makes the contact [-a, c]."""
     h = a + c  # contact width [m]
     P = (np.pi * E_star / (16 * R)) * h**2
     exists = (h > LEAST) & (h < MOST)
@@ -176,8 +170,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; relative radius of curvature [m]
 
     Returns
@@ -195,7 +188,6 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
 
 @shared
 def _moment(a: Array, c: Array, E_star: Array, R: Array) -> Array:
-    """Moment that makes the contact [-a, c]."""
     h = a + c  # contact width [m]
     M = (np.pi * E_star / (32 * R)) * h**2 * (a - c)
     exists = (h > LEAST) & (h < MOST)
@@ -212,8 +204,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; relative radius of curvature [m]
 
     Returns
@@ -231,7 +222,6 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values) -> Array:
 
 @shared
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, R: Array) -> Array:
-    """Contact pressure at x; zero outside [-a, c]."""
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
     p = (E_star / (2 * R)) * w
     h = a + c  # contact width [m]
@@ -250,8 +240,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> A
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; relative radius of curvature [m]
 
     Returns
@@ -269,7 +258,6 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values) -> A
 
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, R: Array) -> Edges:
-    """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
     K_N_left = (E_star / (2 * R)) * np.sqrt(h)
     K_N_right = (E_star / (2 * R)) * np.sqrt(h)
@@ -283,16 +271,13 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
         K_N_left = E_star*sqrt(a + c)/(2*R)
         K_N_right = E_star*sqrt(a + c)/(2*R)
 
-    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
-    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
-    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
-    quadrature of the defining integral of g(x), at the right edge.
+    of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; relative radius of curvature [m]
 
     Returns
@@ -310,7 +295,6 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
 
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, R: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
     L_N_left = -((E_star / (4 * R)) / np.sqrt(h))
     L_N_right = -((E_star / (4 * R)) / np.sqrt(h))
@@ -324,16 +308,12 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values) -> Edges:
         L_N_left = -E_star/(4*R*sqrt(a + c))
         L_N_right = -E_star/(4*R*sqrt(a + c))
 
-    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
-    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
-    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
-    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
-    g(x), at the right edge.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; quadrature of the defining integral of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R : composite modulus [Pa]; relative radius of curvature [m]
 
     Returns
@@ -383,6 +363,11 @@ def _law_breaks(own: Array) -> Array:
 _BODY = Body(__name__, _law_pressure, _law_state, _law_slope, _law_series, _law_breaks)
 
 
+def _of(R: Values) -> tuple[Body, dict[str, Values]]:
+    """The body, and its parameters by name."""
+    return _BODY, {"R": R}
+
+
 def stick_zone(
     first: Contact,
     second: Contact,
@@ -416,8 +401,7 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
-        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
         loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
@@ -432,7 +416,7 @@ def stick_zone(
     >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     ('MODERATE', '1.07718')
     """
-    return cycle.stick_zone(_BODY, {"R": R}, (first, second, dQ, dsigma, f, E_star), mixed)
+    return cycle.stick_zone(*_of(R), (first, second, dQ, dsigma, f, E_star), mixed)
 
 
 def why(
@@ -449,9 +433,7 @@ def why(
 
     Parameters
     ----------
-    first, second, dQ, dsigma : as in stick_zone, of one cycle
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
+    first, second, dQ, dsigma, f, E_star, R : as in stick_zone, of one cycle
 
     Returns
     -------
@@ -470,7 +452,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"R": R}, (first, second, dQ, dsigma, f, E_star), "")
+    return cycle.why(*_of(R), (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -484,16 +466,12 @@ def tension_threshold(
 
     Parameters
     ----------
-    first, second : Contact at the start and at the end of the half-cycle that raises Q
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
+    first, second, dQ, f, E_star, R : as in stick_zone
 
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN if the two contacts differ.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which means sliding.
+        lower [Pa], upper [Pa].  NaN if the two contacts differ.
 
     Examples
     --------
@@ -503,7 +481,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.152789'
     """
-    return cycle.tension_threshold(_BODY, {"R": R}, (first, second, dQ, 0.0, f, E_star))
+    return cycle.tension_threshold(*_of(R), (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -530,18 +508,14 @@ def slip_zones(
     Parameters
     ----------
     a, c : the contact [-a, c] now [m]
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
+    dQ, dsigma, f, E_star, R : as in stick_zone
     da, dc : how much further out the edges are than at the other end of the half-cycle [m]
     order : order of the series: 1 or 2
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.
 
     Examples
     --------
@@ -550,7 +524,7 @@ def slip_zones(
     >>> [f"{v:.6g}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
     ['0.0763944', '0.0763944']
     """
-    return cycle.slip_zones(_BODY, {"R": R}, a, c, dQ, dsigma, f, E_star, da, dc, order=order)
+    return cycle.slip_zones(*_of(R), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def slip_error(
@@ -573,16 +547,12 @@ def slip_error(
 
     Parameters
     ----------
-    a, c, dQ, dsigma, da, dc : as in slip_zones
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
-    order : order of the series: 1 or 2
+    a, c, dQ, dsigma, f, E_star, R, da, dc, order : as in slip_zones
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both orders give slip zones.
 
     Examples
     --------
@@ -591,7 +561,7 @@ def slip_error(
     >>> bool(error.left > 0)
     True
     """
-    return cycle.slip_error(_BODY, {"R": R}, a, c, dQ, dsigma, f, E_star, da, dc, order=order)
+    return cycle.slip_error(*_of(R), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def shear_change(
@@ -615,9 +585,7 @@ def shear_change(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
+    first, second, dQ, dsigma, f, E_star, R : as in stick_zone
 
     Returns
     -------
@@ -625,7 +593,7 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        different contacts.
 
     Examples
     --------
@@ -634,7 +602,7 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.15, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(_BODY, {"R": R}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.shear_change(*_of(R), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def shear(
@@ -663,8 +631,7 @@ def shear(
     x : position along the interface, positive to the right [m]
     contact : Contact under the constant normal loads
     Q, sigma : shear load [N/m] and differential bulk tension [Pa] reached in the first loading
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
+    f, E_star, R : as in stick_zone
     dQ, dsigma : decrease in both since then [N/m], [Pa]
 
     Returns
@@ -686,8 +653,7 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    return cycle.shear(_BODY, {"R": R}, x, contact, loads, f, E_star)
+    return cycle.shear(*_of(R), x, contact, (Q, sigma, dQ, dsigma), f, E_star)
 
 
 def slip_range(
@@ -709,15 +675,13 @@ def slip_range(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
+    first, second, dQ, dsigma, f, E_star, R : as in stick_zone
 
     Returns
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        or FULL_STICK.
 
     Examples
     --------
@@ -726,7 +690,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(_BODY, {"R": R}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.slip_range(*_of(R), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -747,22 +711,15 @@ def march(
 
     Parameters
     ----------
-    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
-        at every instant, along the last axis
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
+    P, M, Q, sigma, f, E_star, R : as in history
 
     Returns
     -------
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
-        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
-        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
-        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
-        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
-        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
-        not cycles.
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE,
+        NOT_CLOSED, SLIDING, NO_STICK or NONE (docs/slip.md).  Use steady_cycle for cycles out of
+        phase, and history for load histories that are not cycles.
 
     Raises
     ------
@@ -777,8 +734,7 @@ def march(
     >>> march(1.22718, 0.306796, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.march(_BODY, {"R": R}, given)
+    return public.march(*_of(R), (P, M, Q, sigma, f, E_star))
 
 
 def history(
@@ -808,8 +764,7 @@ def history(
     ----------
     P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
         at every instant, along the last axis; between two instants all loads vary linearly
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
+    f, E_star, R : as in stick_zone
     x : positions at which to return shear and slip; none unless given [m]
     tol : target error: m and n relative to a + c, shear relative to f P/(a + c)
 
@@ -835,8 +790,7 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.history(_BODY, {"R": R}, given, x, tol)
+    return public.history(*_of(R), (P, M, Q, sigma, f, E_star), x, tol)
 
 
 def steady_cycle(
@@ -863,9 +817,7 @@ def steady_cycle(
     Parameters
     ----------
     P, M, Q, sigma : as in history; the loads return from the last instant to the first
-    f, E_star, R : coefficient of friction [-]; composite modulus [Pa]; relative radius of curvature
-        [m]
-    x : positions at which to return shear and slip; none unless given [m]
+    f, E_star, R, x : as in history
     tol : target error of m and n, relative to a + c
 
     Returns
@@ -890,5 +842,4 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '1.07718'
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.steady_cycle(_BODY, {"R": R}, given, x, tol)
+    return public.steady_cycle(*_of(R), (P, M, Q, sigma, f, E_star), x, tol)

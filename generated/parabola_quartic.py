@@ -3,11 +3,10 @@
 
 g(x) = x**2/(2*R) + x**4/(4*L**3), from derive/geometries/parabola_quartic.py.
 
-Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
 Results are NaN unless the constants of material and geometry are positive and the contact width is
-between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
-number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
-do not broadcast.
+between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 """
 
 import numpy as np
@@ -41,7 +40,6 @@ __all__ += ["tension_threshold", "tilt", "why"]
 
 @shared
 def _tilt(a: Array, c: Array, L: Array, R: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
     alpha = (
         (a - c)
         * (8 * (L * L**2) + (5 * R) * a**2 + (2 * R) * a * c + (5 * R) * c**2)
@@ -62,8 +60,7 @@ def tilt(a: Values, c: Values, *, L: Values, R: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     L, R : distance from the apex at which the quartic term alone has slope one [m]; relative radius
         of curvature at the apex [m]
 
@@ -82,7 +79,6 @@ def tilt(a: Values, c: Values, *, L: Values, R: Values) -> Array:
 
 @shared
 def _load(a: Array, c: Array, E_star: Array, L: Array, R: Array) -> Array:
-    """Normal load that makes the contact [-a, c]."""
     h = a + c  # contact width [m]
     P = (
         (np.pi * E_star / (256 * (L * L**2) * R))
@@ -103,8 +99,7 @@ def load(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Array
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L, R : composite modulus [Pa]; distance from the apex at which the quartic term alone
         has slope one [m]; relative radius of curvature at the apex [m]
 
@@ -123,7 +118,6 @@ def load(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Array
 
 @shared
 def _moment(a: Array, c: Array, E_star: Array, L: Array, R: Array) -> Array:
-    """Moment that makes the contact [-a, c]."""
     h = a + c  # contact width [m]
     M = (
         (np.pi * E_star / (256 * (L * L**2) * R))
@@ -145,8 +139,7 @@ def moment(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Arr
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L, R : composite modulus [Pa]; distance from the apex at which the quartic term alone
         has slope one [m]; relative radius of curvature at the apex [m]
 
@@ -165,7 +158,6 @@ def moment(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Arr
 
 @shared
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, L: Array, R: Array) -> Array:
-    """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
     p = (
@@ -198,8 +190,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values, R: V
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L, R : composite modulus [Pa]; distance from the apex at which the quartic term alone
         has slope one [m]; relative radius of curvature at the apex [m]
 
@@ -218,7 +209,6 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values, R: V
 
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, L: Array, R: Array) -> Edges:
-    """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
     K_N_left = (
         (E_star / (16 * (L * L**2) * R))
@@ -240,16 +230,13 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Edges:
         K_N_left = E_star*sqrt(a + c)*(8*L**3 + 15*R*a**2 - 6*R*a*c + 3*R*c**2)/(16*L**3*R)
         K_N_right = E_star*sqrt(a + c)*(8*L**3 + 3*R*a**2 - 6*R*a*c + 15*R*c**2)/(16*L**3*R)
 
-    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
-    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
-    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
-    quadrature of the defining integral of g(x), at the right edge.
+    of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L, R : composite modulus [Pa]; distance from the apex at which the quartic term alone
         has slope one [m]; relative radius of curvature at the apex [m]
 
@@ -268,7 +255,6 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Edges:
 
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, L: Array, R: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
     L_N_left = -(
         (E_star / (32 * (L * L**2) * R))
@@ -290,16 +276,12 @@ def L_N(a: Values, c: Values, *, E_star: Values, L: Values, R: Values) -> Edges:
         L_N_left = -E_star*(8*L**3 + 55*R*a**2 + 26*R*a*c - 5*R*c**2)/(32*L**3*R*sqrt(a + c))
         L_N_right = E_star*(-8*L**3 + 5*R*a**2 - 26*R*a*c - 55*R*c**2)/(32*L**3*R*sqrt(a + c))
 
-    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
-    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
-    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
-    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
-    g(x), at the right edge.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; quadrature of the defining integral of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L, R : composite modulus [Pa]; distance from the apex at which the quartic term alone
         has slope one [m]; relative radius of curvature at the apex [m]
 
@@ -350,6 +332,11 @@ def _law_breaks(own: Array) -> Array:
 _BODY = Body(__name__, _law_pressure, _law_state, _law_slope, _law_series, _law_breaks)
 
 
+def _of(L: Values, R: Values) -> tuple[Body, dict[str, Values]]:
+    """The body, and its parameters by name."""
+    return _BODY, {"L": L, "R": R}
+
+
 def contact(P: Values, M: Values = 0.0, *, E_star: Values, L: Values, R: Values) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -377,7 +364,7 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, L: Values, R: Values)
     >>> f"{load(a, c, **law):.6g}, {moment(a, c, **law):.6g}"
     '2.89539, 1.08337'
     """
-    return cycle.contact(_BODY, {"L": L, "R": R}, P, M, E_star)
+    return cycle.contact(*_of(L, R), P, M, E_star)
 
 
 def contact_at_tilt(
@@ -409,7 +396,7 @@ def contact_at_tilt(
     >>> f"{load(a, c, **law):.6g}"
     '2.89539'
     """
-    return cycle.contact_at_tilt(_BODY, {"L": L, "R": R}, P, alpha, E_star)
+    return cycle.contact_at_tilt(*_of(L, R), P, alpha, E_star)
 
 
 def stick_zone(
@@ -446,8 +433,7 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
-        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
         loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
@@ -462,7 +448,7 @@ def stick_zone(
     >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     ('MODERATE', '2.53539')
     """
-    return cycle.stick_zone(_BODY, {"L": L, "R": R}, (first, second, dQ, dsigma, f, E_star), mixed)
+    return cycle.stick_zone(*_of(L, R), (first, second, dQ, dsigma, f, E_star), mixed)
 
 
 def why(
@@ -480,9 +466,7 @@ def why(
 
     Parameters
     ----------
-    first, second, dQ, dsigma : as in stick_zone, of one cycle
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
+    first, second, dQ, dsigma, f, E_star, L, R : as in stick_zone, of one cycle
 
     Returns
     -------
@@ -501,7 +485,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"L": L, "R": R}, (first, second, dQ, dsigma, f, E_star), "")
+    return cycle.why(*_of(L, R), (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -515,16 +499,12 @@ def tension_threshold(
 
     Parameters
     ----------
-    first, second : Contact at the start and at the end of the half-cycle that raises Q
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
+    first, second, dQ, f, E_star, L, R : as in stick_zone
 
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN if the two contacts differ.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which means sliding.
+        lower [Pa], upper [Pa].  NaN if the two contacts differ.
 
     Examples
     --------
@@ -534,7 +514,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.366693'
     """
-    return cycle.tension_threshold(_BODY, {"L": L, "R": R}, (first, second, dQ, 0.0, f, E_star))
+    return cycle.tension_threshold(*_of(L, R), (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -562,18 +542,14 @@ def slip_zones(
     Parameters
     ----------
     a, c : the contact [-a, c] now [m]
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
+    dQ, dsigma, f, E_star, L, R : as in stick_zone
     da, dc : how much further out the edges are than at the other end of the half-cycle [m]
     order : order of the series: 1 or 2
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.
 
     Examples
     --------
@@ -582,9 +558,7 @@ def slip_zones(
     >>> [f"{v:.6g}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
     ['0.0410286', '0.0706878']
     """
-    return cycle.slip_zones(
-        _BODY, {"L": L, "R": R}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_zones(*_of(L, R), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def slip_error(
@@ -608,16 +582,12 @@ def slip_error(
 
     Parameters
     ----------
-    a, c, dQ, dsigma, da, dc : as in slip_zones
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
-    order : order of the series: 1 or 2
+    a, c, dQ, dsigma, f, E_star, L, R, da, dc, order : as in slip_zones
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both orders give slip zones.
 
     Examples
     --------
@@ -626,9 +596,7 @@ def slip_error(
     >>> bool(error.left > 0)
     True
     """
-    return cycle.slip_error(
-        _BODY, {"L": L, "R": R}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_error(*_of(L, R), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def shear_change(
@@ -653,9 +621,7 @@ def shear_change(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
+    first, second, dQ, dsigma, f, E_star, L, R : as in stick_zone
 
     Returns
     -------
@@ -663,7 +629,7 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        different contacts.
 
     Examples
     --------
@@ -672,7 +638,7 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.36, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(_BODY, {"L": L, "R": R}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.shear_change(*_of(L, R), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def shear(
@@ -702,8 +668,7 @@ def shear(
     x : position along the interface, positive to the right [m]
     contact : Contact under the constant normal loads
     Q, sigma : shear load [N/m] and differential bulk tension [Pa] reached in the first loading
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
+    f, E_star, L, R : as in stick_zone
     dQ, dsigma : decrease in both since then [N/m], [Pa]
 
     Returns
@@ -725,8 +690,7 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    return cycle.shear(_BODY, {"L": L, "R": R}, x, contact, loads, f, E_star)
+    return cycle.shear(*_of(L, R), x, contact, (Q, sigma, dQ, dsigma), f, E_star)
 
 
 def slip_range(
@@ -749,15 +713,13 @@ def slip_range(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
+    first, second, dQ, dsigma, f, E_star, L, R : as in stick_zone
 
     Returns
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        or FULL_STICK.
 
     Examples
     --------
@@ -766,7 +728,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(_BODY, {"L": L, "R": R}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.slip_range(*_of(L, R), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -788,22 +750,15 @@ def march(
 
     Parameters
     ----------
-    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
-        at every instant, along the last axis
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
+    P, M, Q, sigma, f, E_star, L, R : as in history
 
     Returns
     -------
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
-        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
-        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
-        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
-        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
-        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
-        not cycles.
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE,
+        NOT_CLOSED, SLIDING, NO_STICK or NONE (docs/slip.md).  Use steady_cycle for cycles out of
+        phase, and history for load histories that are not cycles.
 
     Raises
     ------
@@ -818,8 +773,7 @@ def march(
     >>> march(2.89539, 1.08337, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.march(_BODY, {"L": L, "R": R}, given)
+    return public.march(*_of(L, R), (P, M, Q, sigma, f, E_star))
 
 
 def history(
@@ -850,8 +804,7 @@ def history(
     ----------
     P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
         at every instant, along the last axis; between two instants all loads vary linearly
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
+    f, E_star, L, R : as in stick_zone
     x : positions at which to return shear and slip; none unless given [m]
     tol : target error: m and n relative to a + c, shear relative to f P/(a + c)
 
@@ -877,8 +830,7 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.history(_BODY, {"L": L, "R": R}, given, x, tol)
+    return public.history(*_of(L, R), (P, M, Q, sigma, f, E_star), x, tol)
 
 
 def steady_cycle(
@@ -906,9 +858,7 @@ def steady_cycle(
     Parameters
     ----------
     P, M, Q, sigma : as in history; the loads return from the last instant to the first
-    f, E_star, L, R : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the quartic term alone has slope one [m]; relative radius of curvature at the apex [m]
-    x : positions at which to return shear and slip; none unless given [m]
+    f, E_star, L, R, x : as in history
     tol : target error of m and n, relative to a + c
 
     Returns
@@ -933,5 +883,4 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '2.53539'
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.steady_cycle(_BODY, {"L": L, "R": R}, given, x, tol)
+    return public.steady_cycle(*_of(L, R), (P, M, Q, sigma, f, E_star), x, tol)

@@ -3,11 +3,10 @@
 
 g(x) = x**4/(4*L**3), from derive/geometries/quartic.py.
 
-Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
 Results are NaN unless the constants of material and geometry are positive and the contact width is
-between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
-number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
-do not broadcast.
+between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 """
 
 import numpy as np
@@ -41,7 +40,6 @@ __all__ += ["tension_threshold", "tilt", "why"]
 
 @shared
 def _tilt(a: Array, c: Array, L: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
     alpha = (a - c) * (5 * a**2 + 2 * a * c + 5 * c**2) / (16 * (L * L**2))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
@@ -58,8 +56,7 @@ def tilt(a: Values, c: Values, *, L: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     L : distance from the apex at which the flanks have slope one [m]
 
     Returns
@@ -77,7 +74,6 @@ def tilt(a: Values, c: Values, *, L: Values) -> Array:
 
 @shared
 def _load(a: Array, c: Array, E_star: Array, L: Array) -> Array:
-    """Normal load that makes the contact [-a, c]."""
     h = a + c  # contact width [m]
     P = (3 * np.pi * E_star / (256 * (L * L**2))) * h**2 * (5 * a**2 + 5 * c**2 - 6 * a * c)
     exists = (h > LEAST) & (h < MOST)
@@ -94,8 +90,7 @@ def load(a: Values, c: Values, *, E_star: Values, L: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
         [m]
 
@@ -114,7 +109,6 @@ def load(a: Values, c: Values, *, E_star: Values, L: Values) -> Array:
 
 @shared
 def _moment(a: Array, c: Array, E_star: Array, L: Array) -> Array:
-    """Moment that makes the contact [-a, c]."""
     h = a + c  # contact width [m]
     M = (
         (3 * np.pi * E_star / (256 * (L * L**2)))
@@ -136,8 +130,7 @@ def moment(a: Values, c: Values, *, E_star: Values, L: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
         [m]
 
@@ -156,7 +149,6 @@ def moment(a: Values, c: Values, *, E_star: Values, L: Values) -> Array:
 
 @shared
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, L: Array) -> Array:
-    """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
     p = (
@@ -181,8 +173,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values) -> A
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
         [m]
 
@@ -201,7 +192,6 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values) -> A
 
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, L: Array) -> Edges:
-    """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
     K_N_left = (3 * E_star / (16 * (L * L**2))) * (5 * a**2 + c**2 - 2 * a * c) * np.sqrt(h)
     K_N_right = (3 * E_star / (16 * (L * L**2))) * (a**2 + 5 * c**2 - 2 * a * c) * np.sqrt(h)
@@ -215,16 +205,13 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values) -> Edges:
         K_N_left = 3*E_star*sqrt(a + c)*(5*a**2 - 2*a*c + c**2)/(16*L**3)
         K_N_right = 3*E_star*sqrt(a + c)*(a**2 - 2*a*c + 5*c**2)/(16*L**3)
 
-    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
-    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
-    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
-    quadrature of the defining integral of g(x), at the right edge.
+    of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
         [m]
 
@@ -243,7 +230,6 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values) -> Edges:
 
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, L: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     h = a + c  # contact width [m]
     L_N_left = -((E_star / (32 * (L * L**2))) * (55 * a**2 + 26 * a * c - 5 * c**2) / np.sqrt(h))
     L_N_right = (E_star / (32 * (L * L**2))) * (5 * a**2 - 26 * a * c - 55 * c**2) / np.sqrt(h)
@@ -257,16 +243,12 @@ def L_N(a: Values, c: Values, *, E_star: Values, L: Values) -> Edges:
         L_N_left = -E_star*(55*a**2 + 26*a*c - 5*c**2)/(32*L**3*sqrt(a + c))
         L_N_right = E_star*(5*a**2 - 26*a*c - 55*c**2)/(32*L**3*sqrt(a + c))
 
-    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
-    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
-    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
-    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
-    g(x), at the right edge.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; quadrature of the defining integral of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
         [m]
 
@@ -317,6 +299,11 @@ def _law_breaks(own: Array) -> Array:
 _BODY = Body(__name__, _law_pressure, _law_state, _law_slope, _law_series, _law_breaks)
 
 
+def _of(L: Values) -> tuple[Body, dict[str, Values]]:
+    """The body, and its parameters by name."""
+    return _BODY, {"L": L}
+
+
 def contact(P: Values, M: Values = 0.0, *, E_star: Values, L: Values) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -344,7 +331,7 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, L: Values) -> Contact
     >>> f"{load(a, c, **law):.6g}, {moment(a, c, **law):.6g}"
     '1.6682, 0.776578'
     """
-    return cycle.contact(_BODY, {"L": L}, P, M, E_star)
+    return cycle.contact(*_of(L), P, M, E_star)
 
 
 def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, L: Values) -> Contact:
@@ -374,7 +361,7 @@ def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, L: Values
     >>> f"{load(a, c, **law):.6g}"
     '1.6682'
     """
-    return cycle.contact_at_tilt(_BODY, {"L": L}, P, alpha, E_star)
+    return cycle.contact_at_tilt(*_of(L), P, alpha, E_star)
 
 
 def stick_zone(
@@ -410,8 +397,7 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
-        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
         loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
@@ -426,7 +412,7 @@ def stick_zone(
     >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     ('MODERATE', '1.4582')
     """
-    return cycle.stick_zone(_BODY, {"L": L}, (first, second, dQ, dsigma, f, E_star), mixed)
+    return cycle.stick_zone(*_of(L), (first, second, dQ, dsigma, f, E_star), mixed)
 
 
 def why(
@@ -443,9 +429,7 @@ def why(
 
     Parameters
     ----------
-    first, second, dQ, dsigma : as in stick_zone, of one cycle
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
+    first, second, dQ, dsigma, f, E_star, L : as in stick_zone, of one cycle
 
     Returns
     -------
@@ -464,7 +448,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"L": L}, (first, second, dQ, dsigma, f, E_star), "")
+    return cycle.why(*_of(L), (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -478,16 +462,12 @@ def tension_threshold(
 
     Parameters
     ----------
-    first, second : Contact at the start and at the end of the half-cycle that raises Q
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
+    first, second, dQ, f, E_star, L : as in stick_zone
 
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN if the two contacts differ.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which means sliding.
+        lower [Pa], upper [Pa].  NaN if the two contacts differ.
 
     Examples
     --------
@@ -497,7 +477,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.213904'
     """
-    return cycle.tension_threshold(_BODY, {"L": L}, (first, second, dQ, 0.0, f, E_star))
+    return cycle.tension_threshold(*_of(L), (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -524,18 +504,14 @@ def slip_zones(
     Parameters
     ----------
     a, c : the contact [-a, c] now [m]
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
+    dQ, dsigma, f, E_star, L : as in stick_zone
     da, dc : how much further out the edges are than at the other end of the half-cycle [m]
     order : order of the series: 1 or 2
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.
 
     Examples
     --------
@@ -544,7 +520,7 @@ def slip_zones(
     >>> [f"{v:.6g}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
     ['0.030833', '0.0671072']
     """
-    return cycle.slip_zones(_BODY, {"L": L}, a, c, dQ, dsigma, f, E_star, da, dc, order=order)
+    return cycle.slip_zones(*_of(L), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def slip_error(
@@ -567,16 +543,12 @@ def slip_error(
 
     Parameters
     ----------
-    a, c, dQ, dsigma, da, dc : as in slip_zones
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
-    order : order of the series: 1 or 2
+    a, c, dQ, dsigma, f, E_star, L, da, dc, order : as in slip_zones
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both orders give slip zones.
 
     Examples
     --------
@@ -585,7 +557,7 @@ def slip_error(
     >>> bool(error.left > 0)
     True
     """
-    return cycle.slip_error(_BODY, {"L": L}, a, c, dQ, dsigma, f, E_star, da, dc, order=order)
+    return cycle.slip_error(*_of(L), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def shear_change(
@@ -609,9 +581,7 @@ def shear_change(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
+    first, second, dQ, dsigma, f, E_star, L : as in stick_zone
 
     Returns
     -------
@@ -619,7 +589,7 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        different contacts.
 
     Examples
     --------
@@ -628,7 +598,7 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.21, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(_BODY, {"L": L}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.shear_change(*_of(L), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def shear(
@@ -657,8 +627,7 @@ def shear(
     x : position along the interface, positive to the right [m]
     contact : Contact under the constant normal loads
     Q, sigma : shear load [N/m] and differential bulk tension [Pa] reached in the first loading
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
+    f, E_star, L : as in stick_zone
     dQ, dsigma : decrease in both since then [N/m], [Pa]
 
     Returns
@@ -680,8 +649,7 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    return cycle.shear(_BODY, {"L": L}, x, contact, loads, f, E_star)
+    return cycle.shear(*_of(L), x, contact, (Q, sigma, dQ, dsigma), f, E_star)
 
 
 def slip_range(
@@ -703,15 +671,13 @@ def slip_range(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
+    first, second, dQ, dsigma, f, E_star, L : as in stick_zone
 
     Returns
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        or FULL_STICK.
 
     Examples
     --------
@@ -720,7 +686,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(_BODY, {"L": L}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.slip_range(*_of(L), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -741,22 +707,15 @@ def march(
 
     Parameters
     ----------
-    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
-        at every instant, along the last axis
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
+    P, M, Q, sigma, f, E_star, L : as in history
 
     Returns
     -------
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
-        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
-        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
-        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
-        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
-        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
-        not cycles.
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE,
+        NOT_CLOSED, SLIDING, NO_STICK or NONE (docs/slip.md).  Use steady_cycle for cycles out of
+        phase, and history for load histories that are not cycles.
 
     Raises
     ------
@@ -771,8 +730,7 @@ def march(
     >>> march(1.6682, 0.776578, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.march(_BODY, {"L": L}, given)
+    return public.march(*_of(L), (P, M, Q, sigma, f, E_star))
 
 
 def history(
@@ -802,8 +760,7 @@ def history(
     ----------
     P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
         at every instant, along the last axis; between two instants all loads vary linearly
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
+    f, E_star, L : as in stick_zone
     x : positions at which to return shear and slip; none unless given [m]
     tol : target error: m and n relative to a + c, shear relative to f P/(a + c)
 
@@ -829,8 +786,7 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.history(_BODY, {"L": L}, given, x, tol)
+    return public.history(*_of(L), (P, M, Q, sigma, f, E_star), x, tol)
 
 
 def steady_cycle(
@@ -857,9 +813,7 @@ def steady_cycle(
     Parameters
     ----------
     P, M, Q, sigma : as in history; the loads return from the last instant to the first
-    f, E_star, L : coefficient of friction [-]; composite modulus [Pa]; distance from the apex at
-        which the flanks have slope one [m]
-    x : positions at which to return shear and slip; none unless given [m]
+    f, E_star, L, x : as in history
     tol : target error of m and n, relative to a + c
 
     Returns
@@ -884,5 +838,4 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '1.4582'
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.steady_cycle(_BODY, {"L": L}, given, x, tol)
+    return public.steady_cycle(*_of(L), (P, M, Q, sigma, f, E_star), x, tol)

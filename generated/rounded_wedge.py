@@ -4,11 +4,10 @@
 g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), from
     derive/geometries/rounded_wedge.py.
 
-Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
 Results are NaN unless the constants of material and geometry are positive and the contact width is
-between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
-number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
-do not broadcast.
+between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 
 The formulas of several functions use
 
@@ -67,14 +66,10 @@ __all__ += ["tension_threshold", "tilt", "why"]
 def _parts(a: Array, c: Array, b: Array, phi: Array) -> tuple[Array, ...]:
     """Whether [-a, c] is a contact, its width and the angles of its parts."""
     h = a + c  # contact width [m]
-    # cosine of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    # sine of half the angle of x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)  # half-angle cosine at x = -b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)  # half-angle cosine at x = b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)  # half-angle sine at x = -b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)  # half-angle sine at x = b [-]
     # angle of part 2 [-]
     t_2 = 2 * np.arctan2(
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
@@ -86,7 +81,6 @@ def _parts(a: Array, c: Array, b: Array, phi: Array) -> tuple[Array, ...]:
 
 @shared
 def _tilt(a: Array, c: Array, b: Array, phi: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
     exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
@@ -113,8 +107,7 @@ def tilt(a: Values, c: Values, *, b: Values, phi: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     b, phi : half-width of the rounded apex [m]; slope of the flanks [rad]
 
     Returns
@@ -132,7 +125,6 @@ def tilt(a: Values, c: Values, *, b: Values, phi: Values) -> Array:
 
 @shared
 def _load(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
-    """Normal load that makes the contact [-a, c]."""
     exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     P = (E_star * phi / (16 * b)) * h**2 * part_area(t_2, cos_1 * sin_2 + cos_2 * sin_1)
     return where(exists, P, np.nan)
@@ -149,8 +141,7 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
         [rad]
 
@@ -169,7 +160,6 @@ def load(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Arr
 
 @shared
 def _moment(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
-    """Moment that makes the contact [-a, c]."""
     exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     M = (
         (E_star * phi / (32 * b))
@@ -196,8 +186,7 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
         [rad]
 
@@ -216,11 +205,10 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
 
 @shared
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Array:
-    """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # half-angle cosine at x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # half-angle sine at x [-]
     p = (E_star * h * phi / (np.pi * b)) * part_pressure(
         t_2, -((b + x) / h), (b - x) / h, sin_1, cos_1, sin_2, cos_2, sin_x, cos_x
     )
@@ -245,8 +233,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
         [rad]
 
@@ -265,7 +252,6 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
 
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
-    """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     K_N_left = (E_star * phi / (np.pi * b)) * part_weight(t_2, cos_1 * cos_2) * np.sqrt(h)
     K_N_right = (E_star * phi / (np.pi * b)) * part_weight(t_2, sin_1 * sin_2) * np.sqrt(h)
@@ -280,16 +266,13 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
         part_weight(t, far) = 2*far*sin(t/2) + t/2 - sin(t/2)*cos(t/2)
         h, cos_1, cos_2, sin_1, sin_2, t_2: see the docstring of the module
 
-    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
-    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
-    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
-    quadrature of the defining integral of g(x), at the right edge.
+    of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
         [rad]
 
@@ -308,7 +291,6 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, b: Array, phi: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     exists, h, cos_1, cos_2, sin_1, sin_2, t_2 = _parts(a, c, b, phi)
     k_left = where(a - b > 0, 0, where(a + b > 0, phi / b, 0))  # g'' at the left edge [1/m]
     t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
@@ -340,16 +322,12 @@ def L_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
         h, cos_1, cos_2, sin_1, sin_2, t_2, t_3, t_1, edge_angle: see the docstring of the
             module
 
-    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
-    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
-    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
-    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
-    g(x), at the right edge.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; quadrature of the defining integral of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
         [rad]
 
@@ -401,6 +379,11 @@ def _law_breaks(own: Array) -> Array:
 _BODY = Body(__name__, _law_pressure, _law_state, _law_slope, _law_series, _law_breaks)
 
 
+def _of(b: Values, phi: Values) -> tuple[Body, dict[str, Values]]:
+    """The body, and its parameters by name."""
+    return _BODY, {"b": b, "phi": phi}
+
+
 def contact(P: Values, M: Values = 0.0, *, E_star: Values, b: Values, phi: Values) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -428,7 +411,7 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, b: Values, phi: Value
     >>> f"{load(a, c, **law):.6g}, {moment(a, c, **law):.6g}"
     '0.297035, 0.0787576'
     """
-    return cycle.contact(_BODY, {"b": b, "phi": phi}, P, M, E_star)
+    return cycle.contact(*_of(b, phi), P, M, E_star)
 
 
 def contact_at_tilt(
@@ -460,7 +443,7 @@ def contact_at_tilt(
     >>> f"{load(a, c, **law):.6g}"
     '0.297035'
     """
-    return cycle.contact_at_tilt(_BODY, {"b": b, "phi": phi}, P, alpha, E_star)
+    return cycle.contact_at_tilt(*_of(b, phi), P, alpha, E_star)
 
 
 def stick_zone(
@@ -497,8 +480,7 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
-        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
         loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
@@ -513,9 +495,7 @@ def stick_zone(
     >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     ('MODERATE', '0.260035')
     """
-    return cycle.stick_zone(
-        _BODY, {"b": b, "phi": phi}, (first, second, dQ, dsigma, f, E_star), mixed
-    )
+    return cycle.stick_zone(*_of(b, phi), (first, second, dQ, dsigma, f, E_star), mixed)
 
 
 def why(
@@ -533,9 +513,7 @@ def why(
 
     Parameters
     ----------
-    first, second, dQ, dsigma : as in stick_zone, of one cycle
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
+    first, second, dQ, dsigma, f, E_star, b, phi : as in stick_zone, of one cycle
 
     Returns
     -------
@@ -554,7 +532,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"b": b, "phi": phi}, (first, second, dQ, dsigma, f, E_star), "")
+    return cycle.why(*_of(b, phi), (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -575,16 +553,12 @@ def tension_threshold(
 
     Parameters
     ----------
-    first, second : Contact at the start and at the end of the half-cycle that raises Q
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
+    first, second, dQ, f, E_star, b, phi : as in stick_zone
 
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN if the two contacts differ.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which means sliding.
+        lower [Pa], upper [Pa].  NaN if the two contacts differ.
 
     Examples
     --------
@@ -594,7 +568,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.0188439'
     """
-    return cycle.tension_threshold(_BODY, {"b": b, "phi": phi}, (first, second, dQ, 0.0, f, E_star))
+    return cycle.tension_threshold(*_of(b, phi), (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -622,18 +596,14 @@ def slip_zones(
     Parameters
     ----------
     a, c : the contact [-a, c] now [m]
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
+    dQ, dsigma, f, E_star, b, phi : as in stick_zone
     da, dc : how much further out the edges are than at the other end of the half-cycle [m]
     order : order of the series: 1 or 2
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.
 
     Examples
     --------
@@ -642,9 +612,7 @@ def slip_zones(
     >>> [f"{v:.6g}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
     ['0.356056', '0.231102']
     """
-    return cycle.slip_zones(
-        _BODY, {"b": b, "phi": phi}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_zones(*_of(b, phi), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def slip_error(
@@ -668,16 +636,12 @@ def slip_error(
 
     Parameters
     ----------
-    a, c, dQ, dsigma, da, dc : as in slip_zones
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
-    order : order of the series: 1 or 2
+    a, c, dQ, dsigma, f, E_star, b, phi, da, dc, order : as in slip_zones
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both orders give slip zones.
 
     Examples
     --------
@@ -686,9 +650,7 @@ def slip_error(
     >>> bool(error.left > 0)
     True
     """
-    return cycle.slip_error(
-        _BODY, {"b": b, "phi": phi}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_error(*_of(b, phi), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def shear_change(
@@ -713,9 +675,7 @@ def shear_change(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
+    first, second, dQ, dsigma, f, E_star, b, phi : as in stick_zone
 
     Returns
     -------
@@ -723,7 +683,7 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        different contacts.
 
     Examples
     --------
@@ -732,9 +692,7 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.037, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(
-        _BODY, {"b": b, "phi": phi}, x, (first, second, dQ, dsigma, f, E_star)
-    )
+    return cycle.shear_change(*_of(b, phi), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def shear(
@@ -764,8 +722,7 @@ def shear(
     x : position along the interface, positive to the right [m]
     contact : Contact under the constant normal loads
     Q, sigma : shear load [N/m] and differential bulk tension [Pa] reached in the first loading
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
+    f, E_star, b, phi : as in stick_zone
     dQ, dsigma : decrease in both since then [N/m], [Pa]
 
     Returns
@@ -787,8 +744,7 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    return cycle.shear(_BODY, {"b": b, "phi": phi}, x, contact, loads, f, E_star)
+    return cycle.shear(*_of(b, phi), x, contact, (Q, sigma, dQ, dsigma), f, E_star)
 
 
 def slip_range(
@@ -811,15 +767,13 @@ def slip_range(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
+    first, second, dQ, dsigma, f, E_star, b, phi : as in stick_zone
 
     Returns
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        or FULL_STICK.
 
     Examples
     --------
@@ -828,7 +782,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(_BODY, {"b": b, "phi": phi}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.slip_range(*_of(b, phi), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -850,22 +804,15 @@ def march(
 
     Parameters
     ----------
-    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
-        at every instant, along the last axis
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
+    P, M, Q, sigma, f, E_star, b, phi : as in history
 
     Returns
     -------
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
-        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
-        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
-        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
-        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
-        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
-        not cycles.
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE,
+        NOT_CLOSED, SLIDING, NO_STICK or NONE (docs/slip.md).  Use steady_cycle for cycles out of
+        phase, and history for load histories that are not cycles.
 
     Raises
     ------
@@ -880,8 +827,7 @@ def march(
     >>> march(0.297035, 0.0787576, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.march(_BODY, {"b": b, "phi": phi}, given)
+    return public.march(*_of(b, phi), (P, M, Q, sigma, f, E_star))
 
 
 def history(
@@ -912,8 +858,7 @@ def history(
     ----------
     P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
         at every instant, along the last axis; between two instants all loads vary linearly
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
+    f, E_star, b, phi : as in stick_zone
     x : positions at which to return shear and slip; none unless given [m]
     tol : target error: m and n relative to a + c, shear relative to f P/(a + c)
 
@@ -939,8 +884,7 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.history(_BODY, {"b": b, "phi": phi}, given, x, tol)
+    return public.history(*_of(b, phi), (P, M, Q, sigma, f, E_star), x, tol)
 
 
 def steady_cycle(
@@ -968,9 +912,7 @@ def steady_cycle(
     Parameters
     ----------
     P, M, Q, sigma : as in history; the loads return from the last instant to the first
-    f, E_star, b, phi : coefficient of friction [-]; composite modulus [Pa]; half-width of the
-        rounded apex [m]; slope of the flanks [rad]
-    x : positions at which to return shear and slip; none unless given [m]
+    f, E_star, b, phi, x : as in history
     tol : target error of m and n, relative to a + c
 
     Returns
@@ -995,5 +937,4 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '0.260035'
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.steady_cycle(_BODY, {"b": b, "phi": phi}, given, x, tol)
+    return public.steady_cycle(*_of(b, phi), (P, M, Q, sigma, f, E_star), x, tol)

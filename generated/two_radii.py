@@ -3,11 +3,10 @@
 
 g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geometries/two_radii.py.
 
-Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
 Results are NaN unless the constants of material and geometry are positive and the contact width is
-between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
-number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
-do not broadcast.
+between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 
 The formulas of several functions use
 
@@ -60,7 +59,6 @@ def _parts(a: Array, c: Array, R_1: Array, R_2: Array) -> tuple[Array, ...]:
 
 @shared
 def _tilt(a: Array, c: Array, R_1: Array, R_2: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
     exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     alpha = (
         h * involute(t_1) / (2 * R_1)
@@ -84,8 +82,7 @@ def tilt(a: Values, c: Values, *, R_1: Values, R_2: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     R_1, R_2 : relative radius of curvature on the left [m]; relative radius of curvature on the
         right [m]
 
@@ -104,7 +101,6 @@ def tilt(a: Values, c: Values, *, R_1: Values, R_2: Values) -> Array:
 
 @shared
 def _load(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Array:
-    """Normal load that makes the contact [-a, c]."""
     exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     P = (E_star / 16) * h**2 * (segment(t_2) / R_2 + segment(t_1) / R_1)
     return where(exists, P, np.nan)
@@ -121,8 +117,7 @@ def load(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> A
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R_1, R_2 : composite modulus [Pa]; relative radius of curvature on the left [m];
         relative radius of curvature on the right [m]
 
@@ -141,7 +136,6 @@ def load(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> A
 
 @shared
 def _moment(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Array:
-    """Moment that makes the contact [-a, c]."""
     exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     M = (
         (E_star / 32)
@@ -166,8 +160,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) ->
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R_1, R_2 : composite modulus [Pa]; relative radius of curvature on the left [m];
         relative radius of curvature on the right [m]
 
@@ -186,11 +179,10 @@ def moment(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) ->
 
 @shared
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Array:
-    """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # half-angle cosine at x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # half-angle sine at x [-]
     p = (E_star * h / np.pi) * (
         end_pressure(t_2, cos_x, sin_x) / R_2 + end_pressure(t_1, sin_x, cos_x) / R_1
     )
@@ -214,8 +206,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R_1: Values, R_
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R_1, R_2 : composite modulus [Pa]; relative radius of curvature on the left [m];
         relative radius of curvature on the right [m]
 
@@ -236,7 +227,6 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R_1: Values, R_
 
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Edges:
-    """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     K_N_left = (
         (E_star / np.pi) * (segment(t_2 / 2) / R_2 + (t_1 + np.sin(t_1)) / (2 * R_1)) * np.sqrt(h)
@@ -254,16 +244,13 @@ def K_N(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> Ed
         K_N_right = E_star*sqrt(h)*((t_2 + sin(t_2))/(2*R_2) + segment(t_1/2)/R_1)/pi
         h, t_1, t_2, edge_angle, segment: see the docstring of the module
 
-    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
-    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
-    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
-    quadrature of the defining integral of g(x), at the right edge.
+    of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R_1, R_2 : composite modulus [Pa]; relative radius of curvature on the left [m];
         relative radius of curvature on the right [m]
 
@@ -282,11 +269,10 @@ def K_N(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> Ed
 
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, R_1: Array, R_2: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     exists, h, t_1, t_2 = _parts(a, c, R_1, R_2)
     k_left = where(a > 0, 1 / R_1, 1 / R_2)  # g'' at the left edge [1/m]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # sine of half the angle of x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # cosine of half the angle of x = 0 [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # half-angle sine at x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # half-angle cosine at x = 0 [-]
     k_right = where(c > 0, 1 / R_2, 1 / R_1)  # g'' at the right edge [1/m]
     L_N_left = (E_star / (3 * np.pi)) * (1 / R_2 - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(
         h
@@ -313,16 +299,12 @@ def L_N(a: Values, c: Values, *, E_star: Values, R_1: Values, R_2: Values) -> Ed
             2*sin(t/2)/far, far > 0), (0, True))
         h, t_2, t_1, edge_angle: see the docstring of the module
 
-    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
-    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
-    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
-    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
-    g(x), at the right edge.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; quadrature of the defining integral of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R_1, R_2 : composite modulus [Pa]; relative radius of curvature on the left [m];
         relative radius of curvature on the right [m]
 
@@ -373,6 +355,11 @@ def _law_breaks(own: Array) -> Array:
 _BODY = Body(__name__, _law_pressure, _law_state, _law_slope, _law_series, _law_breaks)
 
 
+def _of(R_1: Values, R_2: Values) -> tuple[Body, dict[str, Values]]:
+    """The body, and its parameters by name."""
+    return _BODY, {"R_1": R_1, "R_2": R_2}
+
+
 def contact(P: Values, M: Values = 0.0, *, E_star: Values, R_1: Values, R_2: Values) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -400,7 +387,7 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, R_1: Values, R_2: Val
     >>> f"{load(a, c, **law):.6g}, {moment(a, c, **law):.6g}"
     '1.22718, 0.306796'
     """
-    return cycle.contact(_BODY, {"R_1": R_1, "R_2": R_2}, P, M, E_star)
+    return cycle.contact(*_of(R_1, R_2), P, M, E_star)
 
 
 def contact_at_tilt(
@@ -432,7 +419,7 @@ def contact_at_tilt(
     >>> f"{load(a, c, **law):.6g}"
     '1.22718'
     """
-    return cycle.contact_at_tilt(_BODY, {"R_1": R_1, "R_2": R_2}, P, alpha, E_star)
+    return cycle.contact_at_tilt(*_of(R_1, R_2), P, alpha, E_star)
 
 
 def stick_zone(
@@ -469,8 +456,7 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
-        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
         loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
@@ -485,9 +471,7 @@ def stick_zone(
     >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     ('MODERATE', '1.07718')
     """
-    return cycle.stick_zone(
-        _BODY, {"R_1": R_1, "R_2": R_2}, (first, second, dQ, dsigma, f, E_star), mixed
-    )
+    return cycle.stick_zone(*_of(R_1, R_2), (first, second, dQ, dsigma, f, E_star), mixed)
 
 
 def why(
@@ -505,9 +489,7 @@ def why(
 
     Parameters
     ----------
-    first, second, dQ, dsigma : as in stick_zone, of one cycle
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
+    first, second, dQ, dsigma, f, E_star, R_1, R_2 : as in stick_zone, of one cycle
 
     Returns
     -------
@@ -526,7 +508,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"R_1": R_1, "R_2": R_2}, (first, second, dQ, dsigma, f, E_star), "")
+    return cycle.why(*_of(R_1, R_2), (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -547,16 +529,12 @@ def tension_threshold(
 
     Parameters
     ----------
-    first, second : Contact at the start and at the end of the half-cycle that raises Q
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
+    first, second, dQ, f, E_star, R_1, R_2 : as in stick_zone
 
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN if the two contacts differ.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which means sliding.
+        lower [Pa], upper [Pa].  NaN if the two contacts differ.
 
     Examples
     --------
@@ -566,9 +544,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.152789'
     """
-    return cycle.tension_threshold(
-        _BODY, {"R_1": R_1, "R_2": R_2}, (first, second, dQ, 0.0, f, E_star)
-    )
+    return cycle.tension_threshold(*_of(R_1, R_2), (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -596,18 +572,14 @@ def slip_zones(
     Parameters
     ----------
     a, c : the contact [-a, c] now [m]
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
+    dQ, dsigma, f, E_star, R_1, R_2 : as in stick_zone
     da, dc : how much further out the edges are than at the other end of the half-cycle [m]
     order : order of the series: 1 or 2
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.
 
     Examples
     --------
@@ -616,9 +588,7 @@ def slip_zones(
     >>> [f"{v:.6g}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
     ['0.0763944', '0.0763944']
     """
-    return cycle.slip_zones(
-        _BODY, {"R_1": R_1, "R_2": R_2}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_zones(*_of(R_1, R_2), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def slip_error(
@@ -642,16 +612,12 @@ def slip_error(
 
     Parameters
     ----------
-    a, c, dQ, dsigma, da, dc : as in slip_zones
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
-    order : order of the series: 1 or 2
+    a, c, dQ, dsigma, f, E_star, R_1, R_2, da, dc, order : as in slip_zones
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both orders give slip zones.
 
     Examples
     --------
@@ -660,9 +626,7 @@ def slip_error(
     >>> bool(error.left > 0)
     True
     """
-    return cycle.slip_error(
-        _BODY, {"R_1": R_1, "R_2": R_2}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_error(*_of(R_1, R_2), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def shear_change(
@@ -687,9 +651,7 @@ def shear_change(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
+    first, second, dQ, dsigma, f, E_star, R_1, R_2 : as in stick_zone
 
     Returns
     -------
@@ -697,7 +659,7 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        different contacts.
 
     Examples
     --------
@@ -706,9 +668,7 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.15, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(
-        _BODY, {"R_1": R_1, "R_2": R_2}, x, (first, second, dQ, dsigma, f, E_star)
-    )
+    return cycle.shear_change(*_of(R_1, R_2), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def shear(
@@ -738,8 +698,7 @@ def shear(
     x : position along the interface, positive to the right [m]
     contact : Contact under the constant normal loads
     Q, sigma : shear load [N/m] and differential bulk tension [Pa] reached in the first loading
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
+    f, E_star, R_1, R_2 : as in stick_zone
     dQ, dsigma : decrease in both since then [N/m], [Pa]
 
     Returns
@@ -761,8 +720,7 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    return cycle.shear(_BODY, {"R_1": R_1, "R_2": R_2}, x, contact, loads, f, E_star)
+    return cycle.shear(*_of(R_1, R_2), x, contact, (Q, sigma, dQ, dsigma), f, E_star)
 
 
 def slip_range(
@@ -785,15 +743,13 @@ def slip_range(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
+    first, second, dQ, dsigma, f, E_star, R_1, R_2 : as in stick_zone
 
     Returns
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        or FULL_STICK.
 
     Examples
     --------
@@ -802,9 +758,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(
-        _BODY, {"R_1": R_1, "R_2": R_2}, x, (first, second, dQ, dsigma, f, E_star)
-    )
+    return cycle.slip_range(*_of(R_1, R_2), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -826,22 +780,15 @@ def march(
 
     Parameters
     ----------
-    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
-        at every instant, along the last axis
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
+    P, M, Q, sigma, f, E_star, R_1, R_2 : as in history
 
     Returns
     -------
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
-        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
-        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
-        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
-        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
-        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
-        not cycles.
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE,
+        NOT_CLOSED, SLIDING, NO_STICK or NONE (docs/slip.md).  Use steady_cycle for cycles out of
+        phase, and history for load histories that are not cycles.
 
     Raises
     ------
@@ -856,8 +803,7 @@ def march(
     >>> march(1.22718, 0.306796, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.march(_BODY, {"R_1": R_1, "R_2": R_2}, given)
+    return public.march(*_of(R_1, R_2), (P, M, Q, sigma, f, E_star))
 
 
 def history(
@@ -888,8 +834,7 @@ def history(
     ----------
     P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
         at every instant, along the last axis; between two instants all loads vary linearly
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
+    f, E_star, R_1, R_2 : as in stick_zone
     x : positions at which to return shear and slip; none unless given [m]
     tol : target error: m and n relative to a + c, shear relative to f P/(a + c)
 
@@ -915,8 +860,7 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.history(_BODY, {"R_1": R_1, "R_2": R_2}, given, x, tol)
+    return public.history(*_of(R_1, R_2), (P, M, Q, sigma, f, E_star), x, tol)
 
 
 def steady_cycle(
@@ -944,9 +888,7 @@ def steady_cycle(
     Parameters
     ----------
     P, M, Q, sigma : as in history; the loads return from the last instant to the first
-    f, E_star, R_1, R_2 : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the left [m]; relative radius of curvature on the right [m]
-    x : positions at which to return shear and slip; none unless given [m]
+    f, E_star, R_1, R_2, x : as in history
     tol : target error of m and n, relative to a + c
 
     Returns
@@ -971,5 +913,4 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '1.07718'
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.steady_cycle(_BODY, {"R_1": R_1, "R_2": R_2}, given, x, tol)
+    return public.steady_cycle(*_of(R_1, R_2), (P, M, Q, sigma, f, E_star), x, tol)

@@ -3,11 +3,10 @@
 
 g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/wedge_parabola.py.
 
-Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
 Results are NaN unless the constants of material and geometry are positive and the contact width is
-between 1e-75 and 1e75 m.  Every function raises TypeError for an argument that is not a real
-number, an array of real numbers or the named tuple that it asks for, and ValueError for shapes that
-do not broadcast.
+between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 
 The formulas of several functions use
 
@@ -62,7 +61,6 @@ def _parts(a: Array, c: Array, R: Array, phi: Array) -> tuple[Array, ...]:
 
 @shared
 def _tilt(a: Array, c: Array, R: Array, phi: Array) -> Array:
-    """Tilt at which the contact is [-a, c]."""
     exists, h, t_2 = _parts(a, c, R, phi)
     t_1 = edge_angle(a, c)  # angle of part 1 [-]
     alpha = (t_1 * phi - h * involute(t_2) / (2 * R) - t_2 * np.maximum(-a, 0.0) / R) / np.pi
@@ -81,8 +79,7 @@ def tilt(a: Values, c: Values, *, R: Values, phi: Values) -> Array:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     R, phi : relative radius of curvature on the right [m]; slope of the left flank [rad]
 
     Returns
@@ -100,7 +97,6 @@ def tilt(a: Values, c: Values, *, R: Values, phi: Values) -> Array:
 
 @shared
 def _load(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Array:
-    """Normal load that makes the contact [-a, c]."""
     exists, h, t_2 = _parts(a, c, R, phi)
     P = (E_star * phi / 2) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0)) + (
         E_star / (16 * R)
@@ -119,8 +115,7 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Arr
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, phi : composite modulus [Pa]; relative radius of curvature on the right [m]; slope of
         the left flank [rad]
 
@@ -139,7 +134,6 @@ def load(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Arr
 
 @shared
 def _moment(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Array:
-    """Moment that makes the contact [-a, c]."""
     exists, h, t_2 = _parts(a, c, R, phi)
     M = (E_star * phi / 8) * (a - c) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0)) + (
         E_star / (32 * R)
@@ -159,8 +153,7 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> A
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, phi : composite modulus [Pa]; relative radius of curvature on the right [m]; slope of
         the left flank [rad]
 
@@ -179,11 +172,10 @@ def moment(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> A
 
 @shared
 def _pressure(x: Array, a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Array:
-    """Contact pressure at x; zero outside [-a, c]."""
     x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     exists, h, t_2 = _parts(a, c, R, phi)
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # half-angle cosine at x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # half-angle sine at x [-]
     p = (E_star * phi / (2 * np.pi)) * kink_logarithm(
         (2 * np.maximum(c, 0.0) / h) * (a + x), (2 * np.maximum(a, 0.0) / h) * (c - x), x
     ) + (E_star * h / (np.pi * R)) * end_pressure(t_2, cos_x, sin_x)
@@ -209,8 +201,7 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, phi:
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, phi : composite modulus [Pa]; relative radius of curvature on the right [m]; slope of
         the left flank [rad]
 
@@ -229,10 +220,9 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, R: Values, phi:
 
 @shared
 def _K_N(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Edges:
-    """Coefficients of sqrt(s) in the pressure at a distance s from the edges."""
     exists, h, t_2 = _parts(a, c, R, phi)
-    cot_1 = root_ratio(c, a)  # cotangent of half the angle of x = 0 [-]
-    tan_1 = root_ratio(a, c)  # tangent of half the angle of x = 0 [-]
+    cot_1 = root_ratio(c, a)  # half-angle cotangent at x = 0 [-]
+    tan_1 = root_ratio(a, c)  # half-angle tangent at x = 0 [-]
     K_N_left = (E_star * phi / np.pi) * cot_1 / np.sqrt(h) + (E_star / (np.pi * R)) * segment(
         t_2 / 2
     ) * np.sqrt(h)
@@ -249,16 +239,13 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Edge
         K_N_right = E_star*phi*tan_1/(pi*sqrt(h)) + E_star*sqrt(h)*(t_2 + sin(t_2))/(2*pi*R)
         cot_1, h, t_2, tan_1, edge_angle, segment, root_ratio: see the docstring of the module
 
-    K_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: (2/pi)
     P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha; quadrature of the defining integral
-    of g(x), at the left edge.  K_N_right: proven symbolically and checked numerically to 50 digits
-    at 24 points.  Routes: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha;
-    quadrature of the defining integral of g(x), at the right edge.
+    of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, phi : composite modulus [Pa]; relative radius of curvature on the right [m]; slope of
         the left flank [rad]
 
@@ -277,15 +264,14 @@ def K_N(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Edge
 
 @shared
 def _L_N(a: Array, c: Array, E_star: Array, R: Array, phi: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure at a distance s from the edges."""
     exists, h, t_2 = _parts(a, c, R, phi)
-    cot_1 = root_ratio(c, a)  # cotangent of half the angle of x = 0 [-]
+    cot_1 = root_ratio(c, a)  # half-angle cotangent at x = 0 [-]
     k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [1/m]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # sine of half the angle of x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # cosine of half the angle of x = 0 [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # half-angle sine at x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # half-angle cosine at x = 0 [-]
     k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [1/m]
     t_1 = edge_angle(a, c)  # angle of part 1 [-]
-    tan_1 = root_ratio(a, c)  # tangent of half the angle of x = 0 [-]
+    tan_1 = root_ratio(a, c)  # half-angle tangent at x = 0 [-]
     L_N_left = (
         (E_star * phi / (6 * np.pi)) * cot_1 * (2 * cot_1**2 + 3) / (h * np.sqrt(h))
         + (E_star / (3 * np.pi)) * (1 / R - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(h)
@@ -315,16 +301,12 @@ def L_N(a: Values, c: Values, *, E_star: Values, R: Values, phi: Values) -> Edge
             2*sin(t/2)/far, far > 0), (0, True))
         cot_1, h, t_2, t_1, tan_1, edge_angle, root_ratio: see the docstring of the module
 
-    L_N_left: proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth
-    of K_N by flat punches as its edge moves; quadrature of the defining integral of g(x), at the
-    left edge.  L_N_right: proven symbolically and checked numerically to 50 digits at 24 points.
-    Routes: growth of K_N by flat punches as its edge moves; quadrature of the defining integral of
-    g(x), at the right edge.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; quadrature of the defining integral of g(x), at that edge.
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     E_star, R, phi : composite modulus [Pa]; relative radius of curvature on the right [m]; slope of
         the left flank [rad]
 
@@ -375,6 +357,11 @@ def _law_breaks(own: Array) -> Array:
 _BODY = Body(__name__, _law_pressure, _law_state, _law_slope, _law_series, _law_breaks)
 
 
+def _of(R: Values, phi: Values) -> tuple[Body, dict[str, Values]]:
+    """The body, and its parameters by name."""
+    return _BODY, {"R": R, "phi": phi}
+
+
 def contact(P: Values, M: Values = 0.0, *, E_star: Values, R: Values, phi: Values) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -402,7 +389,7 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, R: Values, phi: Value
     >>> f"{load(a, c, **law):.6g}, {moment(a, c, **law):.6g}"
     '0.534937, -0.0289272'
     """
-    return cycle.contact(_BODY, {"R": R, "phi": phi}, P, M, E_star)
+    return cycle.contact(*_of(R, phi), P, M, E_star)
 
 
 def contact_at_tilt(
@@ -434,7 +421,7 @@ def contact_at_tilt(
     >>> f"{load(a, c, **law):.6g}"
     '0.534937'
     """
-    return cycle.contact_at_tilt(_BODY, {"R": R, "phi": phi}, P, alpha, E_star)
+    return cycle.contact_at_tilt(*_of(R, phi), P, alpha, E_star)
 
 
 def stick_zone(
@@ -471,8 +458,7 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
-        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
         loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
@@ -487,9 +473,7 @@ def stick_zone(
     >>> Regime(zone.regime).name, f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     ('MODERATE', '0.467937')
     """
-    return cycle.stick_zone(
-        _BODY, {"R": R, "phi": phi}, (first, second, dQ, dsigma, f, E_star), mixed
-    )
+    return cycle.stick_zone(*_of(R, phi), (first, second, dQ, dsigma, f, E_star), mixed)
 
 
 def why(
@@ -507,9 +491,7 @@ def why(
 
     Parameters
     ----------
-    first, second, dQ, dsigma : as in stick_zone, of one cycle
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
+    first, second, dQ, dsigma, f, E_star, R, phi : as in stick_zone, of one cycle
 
     Returns
     -------
@@ -528,7 +510,7 @@ def why(
     >>> why(here, here, -1.0, 0.0, f=0.5, **law)
     'dQ = -1 is negative: pass the half-cycle that raises the shear load'
     """
-    return cycle.why(_BODY, {"R": R, "phi": phi}, (first, second, dQ, dsigma, f, E_star), "")
+    return cycle.why(*_of(R, phi), (first, second, dQ, dsigma, f, E_star), "")
 
 
 def tension_threshold(
@@ -549,16 +531,12 @@ def tension_threshold(
 
     Parameters
     ----------
-    first, second : Contact at the start and at the end of the half-cycle that raises Q
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
+    first, second, dQ, f, E_star, R, phi : as in stick_zone
 
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN if the two contacts differ.  Also NaN where dQ < 0, and where
-        dQ >= f (P_1 + P_2), which means sliding.
+        lower [Pa], upper [Pa].  NaN if the two contacts differ.
 
     Examples
     --------
@@ -568,7 +546,7 @@ def tension_threshold(
     >>> f"{limits.upper:.6g}"  # 8 dQ/(pi (a + c))
     '0.0682456'
     """
-    return cycle.tension_threshold(_BODY, {"R": R, "phi": phi}, (first, second, dQ, 0.0, f, E_star))
+    return cycle.tension_threshold(*_of(R, phi), (first, second, dQ, 0.0, f, E_star))
 
 
 def slip_zones(
@@ -596,18 +574,14 @@ def slip_zones(
     Parameters
     ----------
     a, c : the contact [-a, c] now [m]
-    dQ : change in the shear load over the half-cycle that raises it [N/m]
-    dsigma : change in the differential bulk tension over the same half-cycle [Pa]
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
+    dQ, dsigma, f, E_star, R, phi : as in stick_zone
     da, dc : how much further out the edges are than at the other end of the half-cycle [m]
     order : order of the series: 1 or 2
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.
 
     Examples
     --------
@@ -616,9 +590,7 @@ def slip_zones(
     >>> [f"{v:.6g}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
     ['0.22746', '0.0433708']
     """
-    return cycle.slip_zones(
-        _BODY, {"R": R, "phi": phi}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_zones(*_of(R, phi), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def slip_error(
@@ -642,16 +614,12 @@ def slip_error(
 
     Parameters
     ----------
-    a, c, dQ, dsigma, da, dc : as in slip_zones
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
-    order : order of the series: 1 or 2
+    a, c, dQ, dsigma, f, E_star, R, phi, da, dc, order : as in slip_zones
 
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P_1 + P_2), which means sliding.
+        left [m], right [m].  NaN unless both orders give slip zones.
 
     Examples
     --------
@@ -660,9 +628,7 @@ def slip_error(
     >>> bool(error.left > 0)
     True
     """
-    return cycle.slip_error(
-        _BODY, {"R": R, "phi": phi}, a, c, dQ, dsigma, f, E_star, da, dc, order=order
-    )
+    return cycle.slip_error(*_of(R, phi), a, c, dQ, dsigma, f, E_star, da, dc, order=order)
 
 
 def shear_change(
@@ -687,9 +653,7 @@ def shear_change(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
+    first, second, dQ, dsigma, f, E_star, R, phi : as in stick_zone
 
     Returns
     -------
@@ -697,7 +661,7 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        different contacts.
 
     Examples
     --------
@@ -706,9 +670,7 @@ def shear_change(
     >>> float(shear_change(here.c + 1.0, here, here, 0.067, 0.0, f=0.5, **law))
     0.0
     """
-    return cycle.shear_change(
-        _BODY, {"R": R, "phi": phi}, x, (first, second, dQ, dsigma, f, E_star)
-    )
+    return cycle.shear_change(*_of(R, phi), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def shear(
@@ -738,8 +700,7 @@ def shear(
     x : position along the interface, positive to the right [m]
     contact : Contact under the constant normal loads
     Q, sigma : shear load [N/m] and differential bulk tension [Pa] reached in the first loading
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
+    f, E_star, R, phi : as in stick_zone
     dQ, dsigma : decrease in both since then [N/m], [Pa]
 
     Returns
@@ -761,8 +722,7 @@ def shear(
     >>> bool(abs(sum(q)) < 1e-12 * abs(q[0]))  # a cycle between Q and -Q
     True
     """
-    loads = {"Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}
-    return cycle.shear(_BODY, {"R": R, "phi": phi}, x, contact, loads, f, E_star)
+    return cycle.shear(*_of(R, phi), x, contact, (Q, sigma, dQ, dsigma), f, E_star)
 
 
 def slip_range(
@@ -785,15 +745,13 @@ def slip_range(
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    first, second, dQ, dsigma : as in stick_zone
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
+    first, second, dQ, dsigma, f, E_star, R, phi : as in stick_zone
 
     Returns
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which means sliding.
+        or FULL_STICK.
 
     Examples
     --------
@@ -802,7 +760,7 @@ def slip_range(
     >>> float(slip_range(0.0, here, here, 0.0, 0.0, f=0.5, **law))  # nothing slips
     0.0
     """
-    return cycle.slip_range(_BODY, {"R": R, "phi": phi}, x, (first, second, dQ, dsigma, f, E_star))
+    return cycle.slip_range(*_of(R, phi), x, (first, second, dQ, dsigma, f, E_star))
 
 
 def march(
@@ -824,22 +782,15 @@ def march(
 
     Parameters
     ----------
-    P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
-        at every instant, along the last axis
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
+    P, M, Q, sigma, f, E_star, R, phi : as in history
 
     Returns
     -------
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
-        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within a
-        half-cycle), NOT_CLOSED (the step from the last instant back to the first is at least 99 %
-        of the whole change, as in a first loading), SLIDING (|Q| >= f P at some instant), NO_STICK
-        (no stick zone can carry the mean of Q, to 1e-3 of f P) or NONE (a contact does not
-        exist).  Use steady_cycle for cycles out of phase, and history for load histories that are
-        not cycles.
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE,
+        NOT_CLOSED, SLIDING, NO_STICK or NONE (docs/slip.md).  Use steady_cycle for cycles out of
+        phase, and history for load histories that are not cycles.
 
     Raises
     ------
@@ -854,8 +805,7 @@ def march(
     >>> march(0.534937, -0.0289272, Q, 0.0, f=0.5, **law).left.tolist()
     [1, 1, -1, -1]
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.march(_BODY, {"R": R, "phi": phi}, given)
+    return public.march(*_of(R, phi), (P, M, Q, sigma, f, E_star))
 
 
 def history(
@@ -886,8 +836,7 @@ def history(
     ----------
     P, M, Q, sigma : normal load [N/m], moment [N], shear load [N/m], differential bulk tension [Pa]
         at every instant, along the last axis; between two instants all loads vary linearly
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
+    f, E_star, R, phi : as in stick_zone
     x : positions at which to return shear and slip; none unless given [m]
     tol : target error: m and n relative to a + c, shear relative to f P/(a + c)
 
@@ -913,8 +862,7 @@ def history(
     >>> [Regime(code).name for code in states.regime]
     ['FULL_STICK', 'MODERATE', 'MODERATE']
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.history(_BODY, {"R": R, "phi": phi}, given, x, tol)
+    return public.history(*_of(R, phi), (P, M, Q, sigma, f, E_star), x, tol)
 
 
 def steady_cycle(
@@ -942,9 +890,7 @@ def steady_cycle(
     Parameters
     ----------
     P, M, Q, sigma : as in history; the loads return from the last instant to the first
-    f, E_star, R, phi : coefficient of friction [-]; composite modulus [Pa]; relative radius of
-        curvature on the right [m]; slope of the left flank [rad]
-    x : positions at which to return shear and slip; none unless given [m]
+    f, E_star, R, phi, x : as in history
     tol : target error of m and n, relative to a + c
 
     Returns
@@ -969,5 +915,4 @@ def steady_cycle(
     >>> f"{load(steady.m, steady.n, **law):.6g}"  # P - dQ/(2 f)
     '0.467937'
     """
-    given = {"P": P, "M": M, "Q": Q, "sigma": sigma, "f": f, "E_star": E_star}
-    return public.steady_cycle(_BODY, {"R": R, "phi": phi}, given, x, tol)
+    return public.steady_cycle(*_of(R, phi), (P, M, Q, sigma, f, E_star), x, tol)

@@ -72,8 +72,11 @@ class FunctionText:
 
     def text(self, common: Common) -> str:
         """The whole function, without what it has in common with others."""
-        given, constants = map(by_name, (self.function.arguments, self.keywords))
         kind = f", {self.function.kind}" if self.function.kind else ""
+        given, constants = (
+            f"{{{', '.join(f'{str(symbol)!r}: {symbol}' for symbol in symbols)}}}"
+            for symbols in (self.function.arguments, self.keywords)
+        )
         call = f"    return evaluated(_{self.function.name}, {given}, {constants}{kind})"
         return "\n".join([*self._formula(common), "", "", self._head(common), call])
 
@@ -93,7 +96,6 @@ class FunctionText:
         given = ", ".join(f"{s}: Array" for s in (*arguments, *self.keywords))
         yield "@shared"
         yield f"def _{function.name}({given}) -> {function.kind or 'Array'}:"
-        yield f'    """{function.summary}"""'
         if x in arguments and _is_drawn_in(self.sheet):
             yield "    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]"
         if common.steps:
@@ -203,9 +205,12 @@ class FunctionText:
 
     @property
     def _parameters(self) -> Iterator[str]:
-        """One line for each argument; those of the material and the body share one."""
+        """One line for each argument; the edges share one, as do the material and the body."""
         for symbol in self.function.arguments:
-            yield from argument_lines(str(symbol), meaning_of(str(symbol)))
+            if symbol == a:
+                yield "a, c : edges of the contact, at x = -a and x = c [m]"
+            elif symbol != c:
+                yield from argument_lines(str(symbol), meaning_of(str(symbol)))
         if self.keywords:
             yield from constants_lines(self.sheet, [str(symbol) for symbol in self.keywords])
 
@@ -272,11 +277,6 @@ def definition_lines(defined: Mapping[Expr, Expr]) -> Iterator[str]:
 def equation_lines(equation: str, width: int) -> list[str]:
     """An equation as a docstring prints it."""
     return textwrap.wrap(equation, width, initial_indent=" " * 4, subsequent_indent=" " * 8)
-
-
-def by_name(symbols: Iterable[Symbol]) -> str:
-    """A dictionary of variables by their names, as code."""
-    return f"{{{', '.join(f'{str(s)!r}: {s}' for s in symbols)}}}"
 
 
 def meaning_of(name: str) -> str:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from sympy import Expr, Function, Piecewise, factor, simplify
 
 from derive.body.piece import Piece
-from derive.codegen.function import FunctionText, by_name
+from derive.codegen.function import FunctionText
 from derive.codegen.program import Common, Program
 from derive.sheet.formulas import FormulaSheet
 from derive.sheet.notation import text_of
@@ -30,11 +30,9 @@ class IntegratedText(FunctionText):
 
     def text(self, common: Common) -> str:
         """The whole function, which passes its arguments on to the law of the body."""
-        own = by_name(q.symbol for q in self.sheet.geometry.parameters)
+        own = ", ".join(q.name for q in self.sheet.geometry.parameters)
         passed = ", ".join(map(str, (*self.function.arguments, *self.function.constants)))
-        return (
-            f"{self._head(common)}\n    return cycle.{self.function.name}(_BODY, {own}, {passed})"
-        )
+        return f"{self._head(common)}\n    return cycle.{self.function.name}(*_of({own}), {passed})"
 
     def _equations(self, common: Common) -> Iterator[str]:
         """The integrals that are evaluated; a closed formula, if there is one, is on the sheet."""

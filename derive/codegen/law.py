@@ -37,8 +37,17 @@ class LawText:
     @property
     def text(self) -> str:
         """The whole text."""
-        body = f"_BODY = Body(__name__, {', '.join(f'_law_{name}' for name in NAMES)})"
-        return "\n".join([*self._functions(), body])
+        law = ", ".join(f"_law_{name}" for name in NAMES)
+        typed = ", ".join(f"{name}: Values" for name in self.names)
+        named = ", ".join(f"{name!r}: {name}" for name in self.names)
+        lines = [
+            f"_BODY = Body(__name__, {law})",
+            "",
+            f"def _of({typed}) -> tuple[Body, dict[str, Values]]:",
+            '    """The body, and its parameters by name."""',
+            f"    return _BODY, {{{named}}}",
+        ]
+        return "\n".join([*self._functions(), *lines])
 
     def _functions(self) -> Iterator[str]:
         """Code for all functions; they call the public functions with scalars."""

@@ -94,7 +94,9 @@ def _heading(sheet: FormulaSheet, source: str, common: Common) -> str:
     paragraphs = [textwrap.fill(sheet.geometry.title, LINE - 4)]
     paragraphs.append(textwrap.fill(origin, LINE, subsequent_indent=" " * 4))
     demands = demands_of(sheet)
-    shapes = SHAPES.replace("are positive", f"are positive, {demands}") if demands else SHAPES
+    shapes = f"{EXISTENCE}  {SLIDING}  {SHARED}"
+    if demands:
+        shapes = shapes.replace("are positive", f"are positive, {demands}")
     paragraphs.append(textwrap.fill(shapes, LINE))
     if common.defined:
         lines = (equation_lines(line, LINE) for line in definition_lines(common.defined))
@@ -102,12 +104,16 @@ def _heading(sheet: FormulaSheet, source: str, common: Common) -> str:
     return "\n\n".join(paragraphs)
 
 
-SHAPES = (
-    "Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast "
-    "shape.  Results are NaN unless the constants of material and geometry are positive and the "
-    "contact width is between 1e-75 and 1e75 m.  Every function raises TypeError for an argument "
-    "that is not a real number, an array of real numbers or the named tuple that it asks for, and "
-    "ValueError for shapes that do not broadcast."
+EXISTENCE = (
+    "Results are NaN unless the constants of material and geometry are positive and the contact "
+    "width is between 1e-75 and 1e75 m."
+)
+
+SHARED = "The docstring of the package describes shapes and errors."
+
+SLIDING = (
+    "Those from stick_zone to slip_range are also NaN where dQ < 0, and where "
+    "dQ >= f (P_1 + P_2), because the contact then slides."
 )
 
 
@@ -129,7 +135,7 @@ def full_stick_text(sheet: FormulaSheet) -> str:
     return formatted(f'''{MARK}
 """Full stick: the change in shear traction next to the edges of a contact that does not slip.
 
-{textwrap.fill(f"From derive/theory/stick.py.  {SHAPES}", LINE)}
+{textwrap.fill(f"From derive/theory/stick.py.  {EXISTENCE}  {SHARED}", LINE)}
 """
 
 import numpy as np

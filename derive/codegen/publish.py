@@ -24,9 +24,13 @@ RUNTIME = "runtime"
 LIBRARY = Path(__file__).parents[2] / "generated" / RUNTIME
 """That folder under version control."""
 
-_TITLE = (
-    '"""Contact laws as NumPy functions, one module for each body; every formula is proven."""\n'
-)
+_TITLE = '''"""Contact laws as NumPy functions, one module for each body; every formula is proven.
+
+Arguments are numbers, lists or arrays and broadcast; results are float64 with the broadcast shape.
+Every function raises TypeError for an argument that is not a real number, an array of real numbers
+or the named tuple that it asks for, and ValueError for shapes that do not broadcast.
+"""
+'''
 
 FULL_STICK = "full_stick"
 """The module of the functions that do not depend on a body."""

@@ -12,7 +12,6 @@ from string import Template
 
 from derive.codegen.example import example_of
 from derive.codegen.function import (
-    by_name,
     constants_lines,
     demands_of,
     inside_quotes,
@@ -45,7 +44,8 @@ def _words(sheet: FormulaSheet) -> Mapping[str, str]:
         "material": material,
         "half_cycle": f"{contacts}, *, {material}",
         "cycle": f"P: Values, M: Values, Q: Values, sigma: Values, *, {material}",
-        "own": by_name(own),
+        "own": ", ".join(map(str, own)),
+        "names": ", ".join(["f", *names]),
         "constants": inside_quotes("\n    ".join(constants_lines(sheet, ["f", *names]))),
         "elastic": inside_quotes("\n    ".join(constants_lines(sheet, names))),
         "demands": repr(demands_of(sheet)),

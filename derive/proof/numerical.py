@@ -89,11 +89,9 @@ _OF_G = {
     "load": "(E*/2) I_1 of g(x) by quadrature",
     "moment": "-(E*/2) (I_2 - mid I_1) of g(x) by quadrature",
     "pressure": _QUADRATURE,
-    **{
-        f"{K}_{side}": f"{_QUADRATURE}, at the {side} edge"
-        for K in ("K_N", "L_N")
-        for side in ("left", "right")
-    },
+    **dict.fromkeys(
+        ("K_N_left", "K_N_right", "L_N_left", "L_N_right"), f"{_QUADRATURE}, at that edge"
+    ),
 }
 """Each formula that is a defining integral, with the words for its route."""
 

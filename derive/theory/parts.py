@@ -315,18 +315,18 @@ class Parts:
         """Definitions of the symbols in the formulas; each follows those that it contains."""
         found = [Definition(h, a + c, "contact width")]
         for k in self.frame.kinks:
-            at = f"of half the angle of x = {k.kink.position}"
+            at = f"at x = {k.kink.position}"
             kinds = ("sine", "cosine", "tangent", "cotangent")
             clipped = (sqrt(Min(h, Max(0, distance)) / h) for distance in (k.left, k.right))
             exprs = (*clipped, root_ratio(k.left, k.right), root_ratio(k.right, k.left))
             for kind, symbol, expr in zip(kinds, _half_angle(k), exprs, strict=True):
-                found.append(Definition(symbol, expr, f"{kind} {at}"))
+                found.append(Definition(symbol, expr, f"half-angle {kind} {at}"))
         found += [
             Definition(part.t, part.angle, f"angle of part {part.number}") for part in self.parts
         ]
         found += [
-            Definition(sin_x, sqrt(Max(0, a + x) / h), "sine of half the angle of x"),
-            Definition(cos_x, sqrt(Max(0, c - x) / h), "cosine of half the angle of x"),
+            Definition(sin_x, sqrt(Max(0, a + x) / h), "half-angle sine at x"),
+            Definition(cos_x, sqrt(Max(0, c - x) / h), "half-angle cosine at x"),
         ]
         for edge in Edge:
             symbol, at = self.bend_at(edge), f"g'' at the {edge.name.lower()} edge"

@@ -235,13 +235,14 @@ def _at_places(
 
 
 def shear(
-    body: Body, own: Own, x: Values, contact: Contact, loads: Own, f: Values, E_star: Values
+    body: Body, own: Own, x: Values, contact: Contact, loads: Any, f: Values, E_star: Values
 ) -> Array:
     """The shear traction after a rise of the loads from zero and a fall.
 
-    loads: Q, sigma, dQ and dsigma, by name.
+    loads: Q, sigma, dQ and dsigma.
     """
-    numbers = numbers_of(edges_of(contact, "contact") | loads, {})
+    named = dict(zip(("Q", "sigma", "dQ", "dsigma"), loads, strict=True))
+    numbers = numbers_of(edges_of(contact, "contact") | named, {})
     shape_of(numbers | numbers_of({"x": x}, {"f": f, "E_star": E_star, **own}))
     a, c, Q, sigma, *fall = numbers.values()
     rise = [2 * Q, 2 * sigma]

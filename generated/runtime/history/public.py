@@ -38,23 +38,25 @@ MIXED_ERROR = 1e-7
 """Error of a zone from stick_zone with mixed=True, relative to the contact width."""
 
 
-def march(body: Body, own: Own, given: Own) -> March:
+def march(body: Body, own: Own, given: tuple[Values, ...]) -> March:
     """A steady cycle instant by instant."""
-    found: March = _answer(March, partial(_march, body), (), 2, own, **given)
+    found: March = _answer(March, partial(_march, body), (), 2, *_named(own, given))
     return found
 
 
-def history(body: Body, own: Own, given: Own, x: Any, tol: float) -> History:
+def history(body: Body, own: Own, given: tuple[Values, ...], x: Any, tol: float) -> History:
     """Stick zone, shear traction, slip and work at each instant of any load history."""
     solve = partial(_each, History, partial(_history, body), x, _demand(x, tol))
-    found: History = _answer(History, solve, np.shape(x), 1, own, **given)
+    found: History = _answer(History, solve, np.shape(x), 1, *_named(own, given))
     return found
 
 
-def steady_cycle(body: Body, own: Own, given: Own, x: Any, tol: float) -> SteadyCycle:
+def steady_cycle(
+    body: Body, own: Own, given: tuple[Values, ...], x: Any, tol: float
+) -> SteadyCycle:
     """The steady cycle to which a closed load history settles."""
     solve = partial(_cycles, body, x, _demand(x, tol))
-    found: SteadyCycle = _answer(SteadyCycle, solve, np.shape(x), 1, own, **given)
+    found: SteadyCycle = _answer(SteadyCycle, solve, np.shape(x), 1, *_named(own, given))
     return found
 
 
@@ -78,32 +80,38 @@ class _Cases(NamedTuple):
         return {name: value[at][0] for name, value in self.own.items()}, self.f[at][0]
 
 
+def _named(own: Own, given: tuple[Values, ...]) -> tuple[Own, Own]:
+    """The loads, and the constants, by name; `given` are loads, f and E_star."""
+    *loads, f, E_star = given
+    return dict(zip(LOADS, loads, strict=True)), {"f": f, "E_star": E_star, **own}
+
+
 def _answer(
     kind: Any,
     solve: Callable[[_Cases], Any],
     places: tuple[int, ...],
     least: int,
-    own: Own,
-    **given: Values,
+    loads: Own,
+    constants: Own,
 ) -> Any:
     """What is found for all cases, chunk by chunk if an argument is a Dask array.
 
     kind: of the result
     places: the shape of the points
     least: the smallest number of instants
-    given: loads, f and E_star
 
     Raises TypeError if an argument is not a real number, and ValueError if there are too few
     instants or a constant changes with time.
     """
-    loads, constants = {name: given.pop(name) for name in LOADS}, {**given, **own}
     numbers = numbers_of(loads, constants)
     shape = shape_of(numbers) or (1,)
     if shape[-1] < least:
         raise ValueError(f"the last axis is time and must have {least} or more values; got {shape}")
     if any_lazy(numbers.values()):
         call = partial(_answer, kind, solve, places, least)
-        return over_chunks(call, kind.__name__.lower(), numbers, (own,), _AXES[kind], places)
+        return over_chunks(
+            call, kind.__name__.lower(), numbers, (loads, constants), _AXES[kind], places
+        )
     full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
     for name in constants:
         if np.any(np.fmin.reduce(full[name], -1) < np.fmax.reduce(full[name], -1)):
