@@ -205,14 +205,19 @@ class FunctionText:
 
     @property
     def _parameters(self) -> Iterator[str]:
-        """One line for each argument; the edges share one, as do the material and the body."""
+        """What each argument means; the edges and the constants stand in `load` for all others."""
+        of_contact = self.function.geometric and a in self.function.arguments
+        shared = [*map(str, (a, c) if of_contact else ()), *map(str, self.keywords)]
         for symbol in self.function.arguments:
-            if symbol == a:
-                yield "a, c : edges of the contact, at x = -a and x = c [m]"
-            elif symbol != c:
+            if str(symbol) not in shared:
                 yield from argument_lines(str(symbol), meaning_of(str(symbol)))
-        if self.keywords:
-            yield from constants_lines(self.sheet, [str(symbol) for symbol in self.keywords])
+        if self.function.name == "load":
+            yield "a, c : edges of the contact, at x = -a and x = c [m]"
+            yield from constants_lines(self.sheet, shared[2:])
+        elif self.function.geometric:
+            yield from argument_lines(", ".join(shared), "as in load")
+        elif shared:
+            yield from constants_lines(self.sheet, shared)
 
     @property
     def _returns(self) -> tuple[str, str]:

@@ -47,7 +47,7 @@ def _words(sheet: FormulaSheet) -> Mapping[str, str]:
         "own": ", ".join(map(str, own)),
         "names": ", ".join(["f", *names]),
         "constants": inside_quotes("\n    ".join(constants_lines(sheet, ["f", *names]))),
-        "elastic": inside_quotes("\n    ".join(constants_lines(sheet, names))),
+        "elastic": f"{', '.join(names)} : as in load",
         "demands": repr(demands_of(sheet)),
     }
     return words | {
