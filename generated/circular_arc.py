@@ -288,7 +288,7 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, R: Values) -> Contact
 
         P = load(a, c), M = moment(a, c), alpha = tilt(a, c)
 
-    The first two equations are solved for a and c by Newton's method.
+    The equations for P and M are solved for a and c by Newton's method.
 
     Parameters
     ----------
@@ -317,7 +317,7 @@ def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, R: Values
 
         P = load(a, c), alpha = tilt(a, c)
 
-    The equations are solved for a and c by Newton's method.
+    The equations for P and alpha are solved for a and c by Newton's method.
 
     Parameters
     ----------
@@ -328,7 +328,8 @@ def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, R: Values
     Returns
     -------
     Contact
-        a [m], c [m], alpha as given.  NaN unless P > 0 and a contact exists.
+        a [m], c [m], alpha [rad].  NaN unless P > 0 and a contact exists.  Derivatives follow from
+        K_N: when an edge moves, the pressure changes by that of a flat punch.
 
     Examples
     --------
@@ -560,10 +561,9 @@ def shear_change(
     Returns
     -------
     dq : ndarray
-        [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
-        to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
-        NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts.
+        [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up to
+        that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.  NaN
+        unless the stick zone is known without `mixed`, and in full stick if the contacts differ.
 
     Examples
     --------

@@ -637,10 +637,9 @@ def shear_change(
     Returns
     -------
     dq : ndarray
-        [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
-        to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
-        NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts.
+        [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up to
+        that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.  NaN
+        unless the stick zone is known without `mixed`, and in full stick if the contacts differ.
 
     Examples
     --------

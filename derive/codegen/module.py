@@ -65,10 +65,11 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     given = {f.name for f in CONTRACT if not is_solved(sheet, f)}
     bound = {name: text for name, text in solved.items() if name not in given}
     texts = [*_texts(sheet)]
-    common = common_of([text for text in texts if text.is_summed])
-    functions = [text.text(common) for text in texts]
+    summed = [text for text in texts if text.is_summed]
+    common = common_of(summed)
+    functions = [text.text(common if text.is_summed else Common()) for text in texts]
     if common.steps:
-        functions.insert(0, "\n".join(common_text(texts[0], common)))
+        functions.insert(0, "\n".join(common_text(summed[0], common)))
     law = (CurveText if is_integrated(sheet) else LawText)(sheet).text
     code = "\n\n\n".join([*functions, law, *bound.values()])
     stuck = [f.name for f in CONTRACT if not f.geometric]

@@ -10,13 +10,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from string import Template
 
+from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.example import example_of
-from derive.codegen.function import (
-    constants_lines,
-    demands_of,
-    inside_quotes,
-    meaning_of,
-)
+from derive.codegen.function import constants_lines, demands_of, inside_quotes, meaning_of
 from derive.proof.points import Point, numeric
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import E_star, a, c
@@ -25,11 +21,29 @@ TEMPLATE = Path(__file__).with_name("solved.txt")
 
 
 def solved_functions(sheet: FormulaSheet) -> dict[str, str]:
-    """The text of every function of the template."""
-    texts = TEMPLATE.read_text(encoding="utf-8").split("\n\n\n")
+    """The text of every function of the template, whose first text serves both contacts."""
+    contact, *texts = TEMPLATE.read_text(encoding="utf-8").split("\n\n\n")
     values = {**_words(sheet), **_numbers(sheet)}
-    filled = [Template(text).substitute(values) for text in texts]
+    contacts = (_of_contact(f, values) for f in CONTRACT if f.kind == "Contact")
+    filled = [Template(contact).substitute(each) for each in contacts]
+    filled += [Template(text).substitute(values) for text in texts]
     return {text.removeprefix("def ").partition("(")[0]: text for text in filled}
+
+
+def _of_contact(function: Function, values: Mapping[str, str]) -> Mapping[str, str]:
+    """What the template says of a contact under a load and a moment, or under a load at a tilt."""
+    second = str(function.optional)
+    by_moment = second == "M"
+    names = ["load", "moment"] if by_moment else ["load"]
+    return {
+        **values,
+        **{"name": function.name, "summary": function.summary, "second": second},
+        "second_meaning": meaning_of(second),
+        "given": values["moment" if by_moment else "alpha"],
+        "equations": f"P = load(a, c), {'M = moment(a, c), ' * by_moment}alpha = tilt(a, c)",
+        "carried_by": f'f"{", ".join(f"{{{name}(a, c, **law):.6g}}" for name in names)}"',
+        "carries": repr(", ".join(values[name] for name in names)),
+    }
 
 
 def _words(sheet: FormulaSheet) -> Mapping[str, str]:
@@ -50,9 +64,7 @@ def _words(sheet: FormulaSheet) -> Mapping[str, str]:
         "elastic": f"{', '.join(names)} : as in load",
         "demands": repr(demands_of(sheet)),
     }
-    return words | {
-        f"{name}_meaning": meaning_of(name) for name in ("P", "M", "alpha", "x", "dQ", "dsigma")
-    }
+    return words | {f"{name}_meaning": meaning_of(name) for name in ("P", "x", "dQ", "dsigma")}
 
 
 def _numbers(sheet: FormulaSheet) -> Mapping[str, str]:
