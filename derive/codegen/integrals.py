@@ -5,9 +5,9 @@ Out: the text of the function; for its docstring, the integrals of theory/superp
      which generated/runtime/pieces.py evaluates, and the definitions of g' and g''.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Sequence
 
-from sympy import Expr, Function, Piecewise, factor, simplify
+from sympy import Expr, Function, Piecewise, count_ops, factor, simplify
 
 from derive.body.piece import Piece
 from derive.codegen.function import FunctionText
@@ -54,21 +54,16 @@ def lines_of(sheet: FormulaSheet, names: tuple[str, ...]) -> Iterator[str]:
     used = {node.func for expr in formulas.values() for node in expr.atoms(Function)}
     pieces = sheet.geometry.slope.pieces
     defined = {
-        slope(xi): _by_piece(pieces, lambda piece: piece.slope),
-        curvature(xi): _by_piece(pieces, lambda piece: piece.curvature),
+        slope(xi): by_piece([piece.slope for piece in pieces], pieces).subs(x, xi),
+        curvature(xi): by_piece([piece.curvature for piece in pieces], pieces).subs(x, xi),
     }
     held = {call: definition for call, definition in defined.items() if call.func in used}
     for left, right in (formulas | held | sheet.frame.defined_in(*formulas.values())).items():
         yield f"{left} = {text_of(right)}"
 
 
-def _by_piece(pieces: tuple[Piece, ...], of: Callable[[Piece], Expr]) -> Expr:
-    *others, last = pieces
-    branches = [(_short(of(piece)), xi < piece.upper) for piece in others]
-    return Piecewise(*branches, (_short(of(last)), True))
-
-
-def _short(expr: Expr) -> Expr:
-    """The expression at xi, factored unless that makes it longer."""
-    simple = simplify(expr)
-    return min(factor(simple), simple, key=lambda form: form.count_ops()).subs(x, xi)
+def by_piece(values: Sequence[Expr], pieces: Sequence[Piece]) -> Expr:
+    """Functions of x on the pieces, as one; each is factored unless that makes it longer."""
+    short = [min(factor(simple), simple, key=count_ops) for simple in map(simplify, values)]
+    branches = [(value, x < piece.upper) for value, piece in zip(short, pieces, strict=True)]
+    return Piecewise(*branches[:-1], (short[-1], True))

@@ -7,9 +7,8 @@ Out: the text of `_pressure`, `_state`, `_slope`, `_series` and `_breaks`, and o
 import re
 from collections.abc import Iterable, Iterator
 
-from sympy import Expr, Lt, Piecewise, S, count_ops, diff, expand, factor
-
 from derive.codegen.function import local
+from derive.codegen.integrals import by_piece
 from derive.codegen.printer import NumPyPrinter
 from derive.sheet.formulas import FormulaSheet
 from derive.symbols import x
@@ -87,18 +86,12 @@ class LawText:
     def _slope(self) -> Iterator[str]:
         pieces = self.sheet.frame.slope.pieces
         printer, values = NumPyPrinter({x}), {}
-        for name, order in (("slope", 0), ("curvature", 1)):
-            cases = [(_shorter(diff(p.slope, x, order)), Lt(x, p.upper)) for p in pieces]
-            cases[-1] = (cases[-1][0], S.true)
-            values[local(self.sheet, name)] = as_float(printer.doprint(Piecewise(*cases)))
+        for name in ("slope", "curvature"):
+            value = by_piece([getattr(piece, name) for piece in pieces], pieces)
+            values[local(self.sheet, name)] = as_float(printer.doprint(value))
         lines = [f"    {name} = {value}" for name, value in values.items()]
         lines.append(f"    return {', '.join(values)}")
         yield from self.function("_law_slope", "x", "g'(x) and g''(x).", lines)
-
-
-def _shorter(polynomial: Expr) -> Expr:
-    """A polynomial as factors, such as (x - b)/R, or as terms, such as x/R + x**3/L**3."""
-    return min(factor(polynomial), expand(polynomial), key=count_ops)
 
 
 def as_float(printed: str) -> str:
