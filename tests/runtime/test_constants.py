@@ -369,8 +369,9 @@ def a_small_change_is_a_change() -> bool:
 
 
 def in_phase_is_exact_and_nearly_in_phase_is_not() -> bool:
-    Q = 0.1 * np.sin(T)
-    return hertz.history(LOAD, 0.0, Q, 0.1 * Q + 5e-11 * np.cos(T), **CYLINDER).error[-1] > 0
+    t = T[:8:2]
+    Q = 0.1 * np.sin(t)
+    return hertz.history(LOAD, 0.0, Q, 0.1 * Q + 5e-11 * np.cos(t), **CYLINDER).error[-1] > 0
 
 
 def _first_loading(tol: float, share: float = 0.35) -> tuple[float, float]:
