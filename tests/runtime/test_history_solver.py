@@ -1,4 +1,4 @@
-"""The solver of load histories: a small part of what accuracy/histories.py measures."""
+"""The solver of load histories: by the independent solver, exact zones, finer meshes, and work."""
 
 from itertools import product
 

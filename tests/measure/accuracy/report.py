@@ -106,7 +106,6 @@ def _cell(row: Worst | None) -> str:
 
 @click.command()
 @click.option("--count", default=200, help="Points per region for explicit formulas.")
-@click.option("--quick", is_flag=True, help="Ten points per region, for hertz and flat_rounded.")
 @click.option(
     "--body",
     "bodies",
@@ -114,9 +113,8 @@ def _cell(row: Worst | None) -> str:
     help="A body to measure; may be repeated; all bodies by default.",
 )
 @click.option("--output", default=PAGE, type=click.Path(path_type=Path), help="The page to write.")
-def main(count: int, quick: bool, bodies: tuple[str, ...], output: Path) -> None:
+def main(count: int, bodies: tuple[str, ...], output: Path) -> None:
     """Measure the functions and write the page."""
-    bodies, count = (("hertz", "flat_rounded"), 10) if quick else (bodies, count)
     tasks = [(body, entry.name, count) for body in bodies or library() for entry in CATALOGUE]
     rows: list[Worst] = []
     for worst in in_processes(measured, tasks, lambda *_: None, cores()):

@@ -117,11 +117,6 @@ class Verdict(NamedTuple):
         """Whether the premise holds in both half-cycles."""
         return self.there is self.back is Premise.HOLDS
 
-    @property
-    def shrinks(self) -> bool:
-        """Whether it holds in one half-cycle and fails in the other because a zone shrinks."""
-        return {self.there, self.back} == {Premise.HOLDS, Premise.SHRINKS}
-
 
 def verdict(half: HalfCycle, kappa: int) -> Verdict:
     """The verdict on one regime, from the loads alone."""

@@ -1,7 +1,6 @@
 """The findings as Markdown; all numbers in it come from the run that writes it."""
 
-from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -197,32 +196,11 @@ def _figures(found: Explored) -> Row:
 
 
 def _summary(points: Sequence[Explored]) -> str:
-    """How often the premise and the solver agree, as a list of sentences."""
-    kinds = Counter(point.kind for point in points)
-
-    def of(*some: Kind) -> list[Explored]:
-        return [point for point in points if point.kind in some]
-
-    holds, fails = of(Kind.HOLDS), of(Kind.SHRINKS, Kind.BEYOND)
-    turning = [point for point in fails if point.best.shrinks]
-    beyond = sum(point.off(point.best.zone) > point.estimate for point in fails)
-    within = _worst(point.off(point.best.zone) / point.estimate for point in holds)
-    least = _worst(point.off(point.smallest) / point.estimate for point in turning)
-    coarsest = _worst(point.estimate for point in points)
-    farthest = _worst(point.off(point.best.zone) for point in fails)
+    """How often the premise holds, and how close the solver is then."""
+    holds = [point for point in points if point.kind is Kind.HOLDS]
+    within = max(point.off(point.best.zone) / point.estimate for point in holds)
+    coarsest = max(point.estimate for point in points)
     return f"""\
-* The premise holds in {len(holds)} of {len(points)} cycles.  In these the zone of the conditions
-  differs from the solver's by at most {within:.2f} of the solver's estimate.
-* In {len(fails)} cycles it fails although a zone satisfies the conditions: a slip zone shrinks in
-  {kinds[Kind.SHRINKS]}, and shear exceeds friction in {kinds[Kind.BEYOND]}.  The zone differs from
-  the solver's by more than the estimate in {beyond} of these cycles, by up to {farthest:.1e}.
-* In {len(turning)} of these cycles the premise holds in one half-cycle, and fails in the other
-  because a zone shrinks.  The smallest m and n of partial half-cycles then differ from the solver's
-  by at most {least:.2f} of the estimate.
-* In {kinds[Kind.AHEAD]} cycles an edge runs ahead of slip, and in {kinds[Kind.STICKS]} the whole
-  permanent contact sticks.  In {kinds[Kind.OPEN]} further cycles no zone satisfies the conditions.
-* The solver's estimate of its own error is at most {coarsest:.1e}."""
-
-
-def _worst(values: Iterable[float]) -> float:
-    return max(values, default=np.nan)
+The premise holds in {len(holds)} of {len(points)} cycles.  In these the zone of the conditions
+differs from the solver's by at most {within:.2f} of the solver's estimate of its own error.  This
+estimate is at most {coarsest:.1e} in all cycles."""
