@@ -2,7 +2,8 @@
 """Full stick: the change in shear traction next to the edges of a contact that does not slip.
 
 From derive/theory/stick.py.  Results are NaN unless the constants of material and geometry are
-positive and the contact width is between 1e-75 and 1e75 m.  On shapes and errors, see the package.
+positive and the contact width is between 1e-75 and 1e75 m.  The docstring of the package describes
+shapes and errors.
 """
 
 import numpy as np
@@ -32,8 +33,7 @@ def K_T(a: Values, c: Values, dQ: Values, dsigma: Values) -> Edges:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     dQ : change in the shear load over the half-cycle that raises it [N/m]
     dsigma : change in the differential bulk tension over the same half-cycle [Pa]
 
@@ -69,8 +69,7 @@ def L_T(a: Values, c: Values, dQ: Values, dsigma: Values) -> Edges:
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     dQ : change in the shear load over the half-cycle that raises it [N/m]
     dsigma : change in the differential bulk tension over the same half-cycle [Pa]
 
@@ -110,8 +109,7 @@ def stick_margin(
 
     Parameters
     ----------
-    a : left edge of the contact at x = -a [m]
-    c : right edge of the contact at x = c [m]
+    a, c : edges of the contact, at x = -a and x = c [m]
     dP : change in the normal load over the same half-cycle [N/m]
     dM : change in the moment over the same half-cycle [N]
     dQ : change in the shear load over the half-cycle that raises it [N/m]

@@ -5,7 +5,8 @@ g(x) = x**4/(4*L**3), from derive/geometries/quartic.py.
 
 Results are NaN unless the constants of material and geometry are positive and the contact width is
 between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
-dQ >= f (P_1 + P_2), because the contact then slides.  On shapes and errors, see the package.
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 """
 
 import numpy as np
@@ -55,7 +56,8 @@ def tilt(a: Values, c: Values, *, L: Values) -> Array:
 
     Parameters
     ----------
-    a, c, L : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    L : distance from the apex at which the flanks have slope one [m]
 
     Returns
     -------
@@ -128,7 +130,9 @@ def moment(a: Values, c: Values, *, E_star: Values, L: Values) -> Array:
 
     Parameters
     ----------
-    a, c, E_star, L : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
@@ -169,7 +173,9 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, L: Values) -> A
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a, c, E_star, L : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
@@ -205,7 +211,9 @@ def K_N(a: Values, c: Values, *, E_star: Values, L: Values) -> Edges:
 
     Parameters
     ----------
-    a, c, E_star, L : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
@@ -240,7 +248,9 @@ def L_N(a: Values, c: Values, *, E_star: Values, L: Values) -> Edges:
 
     Parameters
     ----------
-    a, c, E_star, L : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
@@ -305,7 +315,8 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, L: Values) -> Contact
     ----------
     P : normal load per unit depth [N/m]
     M : moment per unit depth, M = -int p x dx [N]
-    E_star, L : as in load
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
@@ -334,7 +345,8 @@ def contact_at_tilt(P: Values, alpha: Values = 0.0, *, E_star: Values, L: Values
     ----------
     P : normal load per unit depth [N/m]
     alpha : tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad]
-    E_star, L : as in load
+    E_star, L : composite modulus [Pa]; distance from the apex at which the flanks have slope one
+        [m]
 
     Returns
     -------
@@ -388,8 +400,9 @@ def stick_zone(
         MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
-        loads.  Whether the zone can carry the mean shear load is decided by steady_cycle, and by
-        march unless slip reverses (docs/slip.md).
+        loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
+        sticks if the mean shear load is too high; steady_cycle checks this, and march does unless
+        slip reverses.
 
     Examples
     --------
@@ -754,7 +767,9 @@ def history(
     -------
     History
         a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m]; error.  All are NaN
-        where there is no contact; docs/slip.md says what is NaN where it slides or is UNSOLVED.
+        where there is no contact.  If the contact slides, m and n are NaN at that instant, and
+        slip and work from then on.  If the regime is UNSOLVED, only a and c are known, for example
+        after P = 0 with M != 0, when the contact approaches from a great distance.
 
     Raises
     ------
@@ -803,9 +818,11 @@ def steady_cycle(
     Returns
     -------
     SteadyCycle
-        m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error, which is
-        that of m and n alone.  All are NaN if the contact is lost or slides; m and n are NaN if no
-        point sticks throughout the cycle.  docs/slip.md says what is exact.
+        m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error.  Shear
+        traction and work are computed on elements, even where m and n are exact.  So is slip_range
+        unless P and M are constant and the regime is MODERATE or LARGE.  No error is stated of what
+        is computed on elements other than m and n.  All are NaN if the contact is lost or slides;
+        m and n are NaN if no point sticks throughout the cycle.
 
     Raises
     ------

@@ -6,7 +6,8 @@ g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), fro
 
 Results are NaN unless the constants of material and geometry are positive and the contact width is
 between 1e-75 and 1e75 m.  Those from stick_zone to slip_range are also NaN where dQ < 0, and where
-dQ >= f (P_1 + P_2), because the contact then slides.  On shapes and errors, see the package.
+dQ >= f (P_1 + P_2), because the contact then slides.  The docstring of the package describes shapes
+and errors.
 
 The formulas of several functions use
 
@@ -106,7 +107,8 @@ def tilt(a: Values, c: Values, *, b: Values, phi: Values) -> Array:
 
     Parameters
     ----------
-    a, c, b, phi : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    b, phi : half-width of the rounded apex [m]; slope of the flanks [rad]
 
     Returns
     -------
@@ -184,7 +186,9 @@ def moment(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> A
 
     Parameters
     ----------
-    a, c, E_star, b, phi : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
+        [rad]
 
     Returns
     -------
@@ -229,7 +233,9 @@ def pressure(x: Values, a: Values, c: Values, *, E_star: Values, b: Values, phi:
     Parameters
     ----------
     x : position along the interface, positive to the right [m]
-    a, c, E_star, b, phi : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
+        [rad]
 
     Returns
     -------
@@ -266,7 +272,9 @@ def K_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
     Parameters
     ----------
-    a, c, E_star, b, phi : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
+        [rad]
 
     Returns
     -------
@@ -319,7 +327,9 @@ def L_N(a: Values, c: Values, *, E_star: Values, b: Values, phi: Values) -> Edge
 
     Parameters
     ----------
-    a, c, E_star, b, phi : as in load
+    a, c : edges of the contact, at x = -a and x = c [m]
+    E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
+        [rad]
 
     Returns
     -------
@@ -385,7 +395,8 @@ def contact(P: Values, M: Values = 0.0, *, E_star: Values, b: Values, phi: Value
     ----------
     P : normal load per unit depth [N/m]
     M : moment per unit depth, M = -int p x dx [N]
-    E_star, b, phi : as in load
+    E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
+        [rad]
 
     Returns
     -------
@@ -416,7 +427,8 @@ def contact_at_tilt(
     ----------
     P : normal load per unit depth [N/m]
     alpha : tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad]
-    E_star, b, phi : as in load
+    E_star, b, phi : composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks
+        [rad]
 
     Returns
     -------
@@ -471,8 +483,9 @@ def stick_zone(
         MODERATE, LARGE or FULL_STICK.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads, and only if forward slip eventually covers the
         zone of reversed slip or if `mixed` is True.  This function knows only the changes in the
-        loads.  Whether the zone can carry the mean shear load is decided by steady_cycle, and by
-        march unless slip reverses (docs/slip.md).
+        loads.  Under large tension, if slip reverses, or if a moment rocks the contact, no zone
+        sticks if the mean shear load is too high; steady_cycle checks this, and march does unless
+        slip reverses.
 
     Examples
     --------
@@ -852,7 +865,9 @@ def history(
     -------
     History
         a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m]; error.  All are NaN
-        where there is no contact; docs/slip.md says what is NaN where it slides or is UNSOLVED.
+        where there is no contact.  If the contact slides, m and n are NaN at that instant, and
+        slip and work from then on.  If the regime is UNSOLVED, only a and c are known, for example
+        after P = 0 with M != 0, when the contact approaches from a great distance.
 
     Raises
     ------
@@ -902,9 +917,11 @@ def steady_cycle(
     Returns
     -------
     SteadyCycle
-        m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error, which is
-        that of m and n alone.  All are NaN if the contact is lost or slides; m and n are NaN if no
-        point sticks throughout the cycle.  docs/slip.md says what is exact.
+        m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error.  Shear
+        traction and work are computed on elements, even where m and n are exact.  So is slip_range
+        unless P and M are constant and the regime is MODERATE or LARGE.  No error is stated of what
+        is computed on elements other than m and n.  All are NaN if the contact is lost or slides;
+        m and n are NaN if no point sticks throughout the cycle.
 
     Raises
     ------

@@ -205,19 +205,14 @@ class FunctionText:
 
     @property
     def _parameters(self) -> Iterator[str]:
-        """What each argument means; the edges and the constants stand in `load` for all others."""
-        of_contact = self.function.geometric and a in self.function.arguments
-        shared = [*map(str, (a, c) if of_contact else ()), *map(str, self.keywords)]
+        """One line for each argument; the edges share one, as do the material and the body."""
         for symbol in self.function.arguments:
-            if str(symbol) not in shared:
+            if symbol == a:
+                yield "a, c : edges of the contact, at x = -a and x = c [m]"
+            elif symbol != c:
                 yield from argument_lines(str(symbol), meaning_of(str(symbol)))
-        if self.function.name == "load":
-            yield "a, c : edges of the contact, at x = -a and x = c [m]"
-            yield from constants_lines(self.sheet, shared[2:])
-        elif self.function.geometric:
-            yield from argument_lines(", ".join(shared), "as in load")
-        elif shared:
-            yield from constants_lines(self.sheet, shared)
+        if self.keywords:
+            yield from constants_lines(self.sheet, [str(symbol) for symbol in self.keywords])
 
     @property
     def _returns(self) -> tuple[str, str]:

@@ -110,7 +110,7 @@ EXISTENCE = (
     "width is between 1e-75 and 1e75 m."
 )
 
-SHARED = "On shapes and errors, see the package."
+SHARED = "The docstring of the package describes shapes and errors."
 
 SLIDING = (
     "Those from stick_zone to slip_range are also NaN where dQ < 0, and where "

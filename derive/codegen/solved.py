@@ -61,7 +61,7 @@ def _words(sheet: FormulaSheet) -> Mapping[str, str]:
         "own": ", ".join(map(str, own)),
         "names": ", ".join(["f", *names]),
         "constants": inside_quotes("\n    ".join(constants_lines(sheet, ["f", *names]))),
-        "elastic": f"{', '.join(names)} : as in load",
+        "elastic": inside_quotes("\n    ".join(constants_lines(sheet, names))),
         "demands": repr(demands_of(sheet)),
     }
     return words | {f"{name}_meaning": meaning_of(name) for name in ("P", "x", "dQ", "dsigma")}
