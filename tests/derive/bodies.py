@@ -119,9 +119,6 @@ BODIES = {
     ),
 }
 
-CORNERED = ("wedge", "unequal_wedge", "shifted_wedge", "wedge_on_parabola", "three_corners")
-"""Bodies whose pressure is infinite at a corner."""
-
 QUICK = {"hertz", "wedge", "shifted_wedge", "flat_rounded", "quartic", "two_radii"}
 """One of every kind; the others are slow."""
 

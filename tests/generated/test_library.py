@@ -1,5 +1,5 @@
 """Every body of the library: what mechanics demands of pressure and full stick, there and back over
-24 decades, mirrors, scales."""
+24 decades."""
 
 import importlib
 from types import ModuleType
@@ -12,7 +12,6 @@ from mpmath import mpf
 from numpy.testing import assert_allclose
 
 from derive.body.library import load_geometry
-from derive.reading.units import parse_unit
 from generated import two_radii
 
 pytestmark = pytest.mark.slow
@@ -33,7 +32,6 @@ OWN: dict[str, dict[str, float]] = {
     "wedge": {"phi": 0.25},
     "wedge_parabola": {"phi": 0.1, "R": 1.0},
 }
-SYMMETRIC = sorted({*OWN} - {"two_radii", "unequal_wedge", "wedge_parabola"})
 WIDEST = {"catenary": 1.0, "circular_arc": -0.1}
 """Decades of the widest contact, where a body ends or its load leaves float64."""
 
@@ -226,45 +224,6 @@ def test_contact_at_tilt_inverts_load_and_tilt(name: str) -> None:
     assert_allclose(stiffer, found, rtol=1e-13)
     wider = body.contact_at_tilt(1.01 * load, tilt, **given)
     assert np.all(wider.a > a) and np.all(wider.c > c)
-
-
-@pytest.mark.parametrize("name", SYMMETRIC)
-def test_the_mirror_image_of_a_contact(name: str) -> None:
-    own, a, c = shrunk(name)
-    body, given = module(name), {"E_star": E_STAR, **own}
-    x = -a + 0.3 * (a + c)
-    for function, odd in (("load", 1), ("moment", -1)):
-        there, here = (getattr(body, function)(*e, **given) for e in ((c, a), (a, c)))
-        assert_allclose(there, odd * here, rtol=1e-13, atol=1e-15)
-    for function in ("K_N", "L_N"):
-        there, here = (getattr(body, function)(*e, **given) for e in ((c, a), (a, c)))
-        assert_allclose(there[::-1], here, rtol=1e-12)
-    assert_allclose(body.tilt(c, a, **own), -body.tilt(a, c, **own), rtol=1e-12, atol=1e-15)
-    there, here = body.pressure(-x, c, a, **given), body.pressure(x, a, c, **given)
-    assert_allclose(there, here, rtol=1e-12)
-    load, moment = (of(a, c, **given) for of in (body.load, body.moment))
-    for solve, lean in ((body.contact, moment), (body.contact_at_tilt, body.tilt(a, c, **own))):
-        turned = solve(load, -lean, **given)
-        assert_allclose([turned.c, turned.a], [a, c], rtol=1e-12)
-
-
-@EVERY
-def test_all_lengths_larger_by_one_factor(name: str) -> None:
-    """P goes with it, M with its square, tilt and pressure not at all, K_N like p/sqrt(s)."""
-    own, a, c = shrunk(name)
-    by = 2.0**11
-    units = {q.name: parse_unit(q.unit).length for q in load_geometry(name).parameters}
-    larger = {key: value * by ** float(units[key]) for key, value in own.items()}
-    body = module(name)
-    small, large = {"E_star": E_STAR, **own}, {"E_star": E_STAR, **larger}
-    for function, power in (("load", 1), ("moment", 2), ("K_N", -0.5), ("L_N", -1.5)):
-        there = getattr(body, function)(by * a, by * c, **large)
-        here = np.array(getattr(body, function)(a, c, **small))
-        assert_allclose(there, by**power * here, rtol=1e-12, atol=1e-13 * by**power)
-    x = -a + 0.4 * (a + c)
-    there = body.pressure(by * x, by * a, by * c, **large)
-    assert_allclose(there, body.pressure(x, a, c, **small), rtol=1e-13)
-    assert_allclose(body.tilt(by * a, by * c, **larger), body.tilt(a, c, **own), rtol=1e-12)
 
 
 def test_a_hyperbola_tilted_almost_as_far_as_its_flanks() -> None:

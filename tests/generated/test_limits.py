@@ -1,4 +1,4 @@
-"""Bodies of the library at the limits that tie them together, and quartic and cosh by hand."""
+"""Bodies of the library beside the limits of what they can be."""
 
 import math
 from typing import Any
@@ -8,71 +8,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from generated import (
-    catenary,
-    circular_arc,
-    flat_rounded,
-    flat_sloped,
-    hertz,
-    hyperbola,
-    parabola_quartic,
-    power,
-    rounded_wedge,
-    two_radii,
-    unequal_wedge,
-    wedge,
-    wedge_parabola,
-)
+from generated import circular_arc, flat_sloped, power, wedge_parabola
 from generated.runtime.types import Contact, Regime
 
 E = 2.0
-R, PHI = 1.5, 0.25
-A, C = np.array([0.75, 1.0, 0.5]), np.array([0.5, 1.0, 1.25])
-X = np.array([-0.375, 0.125, 1.0])
-
-HERTZ = (hertz, {"R": R})
-WEDGE = (wedge, {"phi": PHI})
-
-LIMITS = [
-    (flat_rounded, {"R": R, "b": 1e-13}, HERTZ, 1e-11),
-    (power, {"k": 2.0, "L": R}, HERTZ, 1e-14),
-    (circular_arc, {"R": 1e8 * R}, (hertz, {"R": 1e8 * R}), 1e-13),
-    (two_radii, {"R_1": R, "R_2": R}, HERTZ, 1e-13),
-    (parabola_quartic, {"R": R, "L": 1e6}, HERTZ, 1e-13),
-    (catenary, {"R": R, "b": 1e8}, HERTZ, 1e-13),
-    (rounded_wedge, {"phi": PHI, "b": 1e-15}, WEDGE, 1e-13),
-    (flat_sloped, {"phi": PHI, "b": 1e-15}, WEDGE, 1e-13),
-    (unequal_wedge, {"phi_1": PHI, "phi_2": PHI}, WEDGE, 1e-14),
-    (hyperbola, {"phi": PHI, "b": 1e-9}, WEDGE, 1e-8),
-    (
-        wedge_parabola,
-        {"phi": PHI, "R": 1e16},
-        (unequal_wedge, {"phi_1": PHI, "phi_2": 1e-30}),
-        1e-12,
-    ),
-]
-"""A body near its limit, the limit, and how close they come."""
+R = 1.5
 
 
 def _id(value: Any) -> str:
     return getattr(value, "__name__", "").split(".")[-1]
-
-
-@pytest.mark.parametrize(("body", "own", "limit", "close"), LIMITS, ids=_id)
-def test_a_body_near_its_limit(body: Any, own: dict[str, float], limit: Any, close: float) -> None:
-    other, others = limit
-    for name in ("load", "moment", "K_N"):
-        found = getattr(body, name)(A, C, E_star=E, **own)
-        wanted = getattr(other, name)(A, C, E_star=E, **others)
-        size = np.max(np.abs(wanted))
-        assert_allclose(found, wanted, rtol=0, atol=close * size, err_msg=name)
-    found, wanted = body.tilt(A, C, **own), other.tilt(A, C, **others)
-    assert_allclose(found, wanted, rtol=0, atol=close, err_msg="tilt")
-    found, wanted = (
-        body.pressure(X, A, C, E_star=E, **own),
-        other.pressure(X, A, C, E_star=E, **others),
-    )
-    assert_allclose(found, wanted, rtol=10 * close, err_msg="pressure")
 
 
 @pytest.mark.parametrize("k", [1.001, 1.03, 1.06, 1.064, 1.1])

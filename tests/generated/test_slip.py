@@ -30,15 +30,6 @@ def test_first_order_by_hand() -> None:
     assert_allclose(d.right, 0.0, atol=1e-17)
 
 
-def test_half_of_what_an_edge_gains_is_added_and_taken_off() -> None:
-    """f K_N d = K_T + f K_N dc/2 at the larger contact, the same with -dc at the smaller."""
-    shear, by = 0.1 * F * load(1.5, 1.0), {"da": 0.004, "dc": -0.002}
-    still = wedge.slip_zones(1.5, 1.0, shear, 0.0, **WEDGE)
-    moved = wedge.slip_zones(1.5, 1.0, shear, 0.0, **WEDGE, **by)
-    assert_allclose(moved.left - still.left, 0.002, rtol=1e-12)
-    assert_allclose(moved.right - still.right, -0.001, rtol=1e-12)
-
-
 @pytest.mark.parametrize("name", series.BODIES)
 def test_errors_fall_with_the_power_of_the_order(name: str) -> None:
     for of in series.measured(name, 0.3 * 0.25 ** np.arange(2, 4)):

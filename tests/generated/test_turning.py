@@ -97,16 +97,6 @@ def test_slip_that_recedes_past_a_kink(at: tuple[float, float, float, float]) ->
     assert_allclose((zone.m, zone.n), RECEDES[at], rtol=0, atol=4e-8 * sum(at[:2]))
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize("at", RECEDES)
-def test_the_limit_of_the_other_solution(at: tuple[float, float, float, float]) -> None:
-    """It errs like cells**-1.5, so that two of them tell the limit."""
-    half, b = half_cycle("rounded_wedge", *at), OWN["rounded_wedge"]["b"]
-    one, other = (np.array(turning(half, breaks=(-b, b), cells=n).zone) for n in (200, 400))
-    limit = other + (other - one) / (2**1.5 - 1)
-    assert_allclose(RECEDES[at], limit, rtol=0, atol=1e-7)
-
-
 @pytest.mark.enough("flat_rounded")
 @pytest.mark.parametrize("name", OWN)
 def test_nearly_all_random_cycles_are_solved(name: str) -> None:

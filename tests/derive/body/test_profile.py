@@ -142,7 +142,7 @@ _coefficient = st.fractions(min_value=Fraction(1, 8), max_value=4, max_denominat
 
 
 @pytest.mark.slow
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(
     st.lists(
         st.tuples(_coefficient, st.integers(-3, 3), st.integers(1, 3)), min_size=1, max_size=3

@@ -127,29 +127,6 @@ def test_lengths_and_the_modulus_scale_every_formula_by_its_power(
         assert close(first, second, digits=18, scale=1e-6 * by), formula
 
 
-@pytest.mark.parametrize(
-    ("whole", "parts"),
-    [
-        ("wedge_on_parabola", {"wedge": 1, "hertz": 1}),
-        ("hertz", {"flat_rounded": 1, "rounded_wedge": 1}),  # (|x|-b)/R beyond b + min(|x|, b)/R
-        ("three_corners", {"wedge": 1, "flat_cornered": 2}),  # phi + 2 phi beyond b
-    ],
-    ids=lambda given: given if isinstance(given, str) else "+".join(given),
-)
-@FEW
-@given(number, number, _at)
-def test_bodies_add_up_at_one_contact(
-    whole: str, parts: dict[str, int], left: float, right: float, share: float
-) -> None:
-    """Everything but a'(c) and P'(c), which follow the contact along fixed tilt, is linear in g."""
-    here = {"a": mpf(left) + 0.5, "c": mpf(right) + 0.5}
-    place = inside(here, share)
-    for formula in ("tilt", "load", "moment", "pressure", *EDGES):
-        total = sum(n * value(part, formula, x=place, **here) for part, n in parts.items())
-        first = value(whole, formula, x=place, **here)
-        assert close(first, total, digits=18, scale=1e-3), formula
-
-
 @pytest.mark.enough("rounded_wedge*")
 @pytest.mark.parametrize(
     ("name", "own", "dsigma", "senses"),

@@ -1,7 +1,6 @@
 """Tilt, load and moment: against quadrature of slopes written by hand."""
 
 import pytest
-from mpmath import mpf
 
 from tests.derive import integrals
 from tests.derive.bodies import BODIES, CASES, VALUES, close, value
@@ -18,19 +17,3 @@ def test_tilt_load_and_moment_are_the_moments_of_the_slope(
     assert close(tilt, integrals.tilt(slope, left, right, kinks), scale=1)
     assert close(load, integrals.load(slope, left, right, kinks, E_star))
     assert close(moment, integrals.moment(slope, left, right, kinks, E_star), scale=load)
-
-
-@ALL
-def test_load_and_moment_are_resultants_of_the_pressure(
-    name: str, left: float, right: float
-) -> None:
-    """P = int p dx and M = -int p x dx: the sign of M is that of the convention."""
-
-    def p(s: mpf) -> mpf:
-        return value(name, "pressure", x=s, a=left, c=right)
-
-    kinks = BODIES[name].kinks
-    found = value(name, "load", a=left, c=right)
-    assert close(integrals.resultant(p, left, right, kinks), found, digits=18)
-    arm = integrals.resultant(lambda s: -s * p(s), left, right, kinks)
-    assert close(arm, value(name, "moment", a=left, c=right), digits=18, scale=found)

@@ -1,11 +1,11 @@
-"""p(x): against principal values, the integral equation it solves, and its own limits."""
+"""p(x): against principal values, and the integral equation that it solves."""
 
 import mpmath
 import pytest
 from mpmath import mpf
 
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, CASES, CORNERED, VALUES, close, value
+from tests.derive.bodies import BODIES, CASES, VALUES, close, value
 
 ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
 SHARES = ("0.03125", "0.28125", "0.53125", "0.84375")
@@ -39,18 +39,3 @@ def test_the_pressure_deforms_the_half_plane_to_the_body(name: str) -> None:
         found = integrals.principal_value(p, place, mpf(left), mpf(right), body.kinks)
         expected = mpmath.pi * VALUES["E_star"] / 2 * (body.slope(place) + alpha)
         assert close(found, expected, digits=9, scale=1)
-
-
-@pytest.mark.parametrize("name", CORNERED)
-def test_the_pressure_at_a_corner_grows_as_its_logarithm(name: str) -> None:
-    """p ~ (E*/2 pi) [step of g'] log(1/|x - x_j|): halving the distance adds (..) log 2."""
-    body = BODIES[name]
-    for kink in body.kinks:
-        step = body.slope(mpf(kink) + 1e-6) - body.slope(mpf(kink) - 1e-6)
-        for side in (1, -1):
-            far, near = (
-                value(name, "pressure", x=kink + side * d, a=2.0, c=1.0)
-                for d in (mpf("1e-14"), mpf("5e-15"))
-            )
-            gained = VALUES["E_star"] / (2 * mpmath.pi) * step * mpmath.log(2)
-            assert close(near - far, gained, digits=5)
