@@ -73,12 +73,19 @@ def test_it_comes_to_the_exact_field(of: Callable[..., Any], order: int) -> None
     assert np.log(off[0] / off[1]) / np.log(8) > 0.85
 
 
-def test_a_moving_edge_keeps_its_change_of_shear_bounded_and_meets_full_stick() -> None:
-    """Far from the edge dq is full stick's to s**(-3/2); at the stick zone it is continuous."""
-    inside, outside = tractions(ZONE * (1 + np.array([-1e-12, 1e-12])), MOVING, f=F).dq
+@pytest.mark.parametrize(("da", "L_T"), [(0.05, 0.3), (0.3, 1.8)])
+def test_a_moving_edge_keeps_its_change_of_shear_bounded_and_meets_full_stick(
+    da: float, L_T: float
+) -> None:
+    """Far from the edge dq is full stick's to s**(-3/2); at the stick zone it is continuous.  The
+    second edge comes a third of the way to the stick zone, where L_T drives slip the most."""
+    edge = MOVING._replace(da=da, L_T=L_T)
+    zone = slip_zone(2.0, 0.2, f=F, L_N=0.7, L_T=L_T, da=da).d
+    assert zone > da
+    inside, outside = tractions(zone * (1 + np.array([-1e-12, 1e-12])), edge, f=F).dq
     assert_allclose(inside, outside, rtol=1e-5)
-    s = np.array([1e3, 4e3]) * ZONE
-    left = tractions(s, MOVING, f=F).dq * np.sqrt(s) - (0.2 + 0.3 * s)
+    s = np.array([1e3, 4e3]) * zone
+    left = tractions(s, edge, f=F).dq * np.sqrt(s) - (0.2 + L_T * s)
     assert_allclose(left[0] / left[1], 4.0, rtol=0.05)
 
 
