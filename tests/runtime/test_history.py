@@ -322,20 +322,7 @@ def test_cycles_that_stick_nowhere_or_slide():
     assert steady_cycle(hertz, -P, 0.0, 0.1, 0.0).regime == Regime.NONE
 
 
-# ---------------------------------------------------------------- symmetry, shapes, text
-
-
-@pytest.mark.enough("case2")
-@pytest.mark.parametrize("case", [hertz, wedge, flat_rounded])
-def test_mirrored_loads_mirror_the_answer(case):
-    """Mirrored, and shear turned round: P, -M, -Q, sigma."""
-    P, M = 1 + 0.2 * np.sin(T), 0.05 * np.cos(T)
-    Q, sigma = 0.15 * np.sin(T + 1), 0.2 * np.cos(T + 2)
-    here, there = (history(case, P, s * M, s * Q, sigma, x=[0.3 * s]) for s in (1, -1))
-    assert np.all(abs(there.m - here.n) < (here.error + there.error) * (here.a + here.c))
-    assert np.median(here.error) < 0.01
-    assert there.q == pytest.approx(-here.q, abs=3e-3)
-    assert there.work == pytest.approx(here.work, abs=0.02 * here.work[-1])
+# ---------------------------------------------------------------- scales, shapes, text
 
 
 def test_shear_grows_with_friction_in_any_units():
