@@ -367,7 +367,7 @@ def _second(curve: Any, a: float, c: float, own: Any, sense: float) -> float:
         if corners[i] > 0:
             square = A / B
             total[0] += corners[i] * math.sqrt(square) * (3 + 2 * square)
-        if origin < A and (B > 0.1 or corners[i] > 0 or not _is_smooth(curve, i, own)):
+        if origin < A and (B > 0.1 or not _is_smooth(curve, i, own)):
             origin, to_edge = A, B
     r_0 = math.sqrt(origin / to_edge)
     for piece in range(breaks.size + 1):

@@ -12,7 +12,10 @@ from mpmath import mpf
 from sympy import Abs, Expr, Rational, cosh, log, sqrt
 from sympy import exp as sympy_exp
 
-from derive import x
+from derive import Geometry, x
+from derive.proof.points import numeric
+from derive.proof.quadrature import value_by_quadrature
+from derive.symbols import E_star, a, c
 from tests.codegen.made import module_of, text_of_body
 from tests.derive.bodies import L, b, k, phi
 
@@ -123,3 +126,18 @@ def test_exponentials_beyond_float64_have_a_slope_all_the_same() -> None:
     with body_of(phi * b * log(1 + sympy_exp(x / b))) as (module, _, _):
         found = module.load(1e6, 4e6, E_star=1.0, **named(module))
     assert float(found) == pytest.approx(OWN["phi"] * 2e6 / 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("gap", [0.02, 1e-4])
+def test_the_second_term_beside_a_corner_where_the_curvature_goes_on(gap: float) -> None:
+    """L_N of a contact whose right edge is just beyond the corner, by its defining integral."""
+    g = phi * b * log(cosh(x / b)) + phi * Abs(x - b / 4)
+    body = Geometry("cornered", g)  # whose g has plain symbols
+    left, right = 1.0, OWN["b"] / 4 + gap
+    point = {q.symbol: mpf(OWN[q.name]) for q in body.parameters}
+    point |= {a: mpf(left), c: mpf(right), E_star: mpf(1)}
+    with body_of(g) as (module, _, _), mpmath.workdps(40):
+        found = module.L_N(left, right, E_star=1.0, **named(module))
+        for side in ("left", "right"):
+            wanted = numeric(value_by_quadrature(body.g, f"L_N_{side}"))(point)
+            assert float(getattr(found, side)) == pytest.approx(float(wanted), rel=1e-10)
