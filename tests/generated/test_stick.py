@@ -388,3 +388,17 @@ def test_large_tension_holds_at_every_part_of_the_way() -> None:
         for place, kappa in ((-zone.m, sense), (zone.n, -sense)):
             dq = wedge.shear_change(place, here, here, part * dQ, part * dsigma, **law)
             assert np.all((kappa * dq)[large] >= -1e-9)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_slip_zones_down_to_rounding_are_found_at_any_size(size: float) -> None:
+    """Large tension under a cylinder; until rounding hides them, the zones are |K_T|/(f K_N)."""
+    here = hertz.contact(size, 0.0, E_star=1.0, R=size)
+    dQ = 0.1 * size * 10.0 ** -np.arange(1, 16)
+    dsigma = 6 * dQ / (here.a + here.c)
+    zone = hertz.stick_zone(here, here, dQ, dsigma, f=F, E_star=1.0, R=size)
+    assert_array_equal(zone.regime, Regime.LARGE)
+    first = hertz.slip_zones(here.a, here.c, dQ, dsigma, f=F, E_star=1.0, R=size)
+    found = np.array([here.a - zone.m, here.c - zone.n])
+    rounding = 2e-15 * size / np.array(first)
+    assert np.all(np.abs(found / first - 1) < 10 * dQ / size + rounding + 1e-9)
