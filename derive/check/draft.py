@@ -94,16 +94,13 @@ def draft_claims(path: Path, inline: bool = False, standard: Standard = NONE) ->
     if not source.found:
         why = "the file has no displayed equations"
         raise BadClaimsFile(str(path), why, "give a paper in LaTeX")
-    made = Draft(source.title or path.name, source.environments, answers, standard)
-    known = [(each, _statements(path.name, each)) for each in source.found]
-    shown, asides = list[list[Token]](), list[list[Token]]()
-    for display, statement in ((d, each) for d, found in known for each in found if not each.why):
-        formulas = asides if display.is_aside else shown
-        formulas += [statement.tokens, *statement.conditions]
-    functions = functions_in(shown)
-    spelled = _spelled(shown)
-    made.spelled = _spelled(asides) | spelled
-    names = Names("", {name: Symbol(name) for name in made.spelled.values()}, {})
+    printed = [(each, _statements(path.name, each)) for each in source.found]
+    read = [each for _, found in printed for each in found if not each.why]
+    formulas = [formula for each in read for formula in (each.tokens, *each.conditions)]
+    functions = functions_in(formulas)
+    spelled = {own: n for each in formulas for own, n in spellings(each).items()}
+    names = Names("", {name: Symbol(name) for name in spelled.values()}, {})
+    claims, defined = list[dict[str, Any]](), dict[str, dict[str, str]]()
     used, seen = Counter[str](), set[str]()
     for display, found in printed:
         latex = Latex("the draft", display.latex, spelled)
@@ -232,11 +229,6 @@ def _statements(name: str, display: Display) -> list[Statement]:
         return statements(name, display.latex) or [Statement([], why="it has no relation")]
     except BadFormula as error:
         return [Statement([], why=reason(error))]
-
-
-def _spelled(formulas: list[list[Token]]) -> dict[str, str]:
-    """Return a name for the LaTeX of every symbol in formulas."""
-    return {latex: name for each in formulas for latex, name in spellings(each).items()}
 
 
 def _is_stated(latex: str, statement: Statement) -> bool:

@@ -129,7 +129,7 @@ def further(claim: Claim, exprs: Sequence[Expr]) -> Iterator[Point]:
         return
     extreme, beside, stationary = (number[few] for number in (_EXTREME, _BESIDE, _STATIONARY))
     zero, level = set(drawn.past_limits(exprs)), list[Expr]()
-    if not (few and claim.meant.family):
+    if not (few and claim.entry.family):
         found = {switch for expr in exprs for switch in switches(expr) if not switch.of.is_nonzero}
         zero |= {switch.of for switch in found}
         level += [switch.of for switch in found if switch.kind == "kink"]
