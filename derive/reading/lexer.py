@@ -95,6 +95,7 @@ _UPRIGHT = {
 """Functions and constants whose name is printed upright."""
 _WORDS = {
     "AND": "and|so that|with|hence|thus|therefore|i.e|where",
+    "OR": "or|or else",
     "WHERE": "for|for all|for any|for every|if|when|whenever|as|at|in|on|provided"
     "|provided that|while|as long as|in the limit|valid for",
     "WHERE ELSE": "otherwise|else|elsewhere",

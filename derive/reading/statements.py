@@ -30,8 +30,13 @@ from derive.reading.lexer import (
 
 _MOST = 20_000
 """The largest number of characters in a display."""
-_JOINTS = ("WHERE", "IMPLIES", "IFF")
+_JOINTS = ("WHERE", "OR", "IMPLIES", "IFF")
 """Tokens that say how they join two entries of a display; others only divide them."""
+_UNDECIDED = {
+    "IFF": "equivalent statements may both be false",
+    "OR": "of statements joined by `or` only one may hold",
+}
+"""Why statements are not read that are joined so."""
 
 
 @dataclass
@@ -60,6 +65,14 @@ class Statement:
     def is_rough(self) -> bool:
         """Whether it is an approximation."""
         return "ROUGH" in self.relations
+
+    def require(self, condition: list[Token], joint: str) -> None:
+        """Add a condition; those that are joined by "or" are one."""
+        if self.conditions and (joint == "OR" or any(t.type == "OR" for t in self.conditions[-1])):
+            link = Token(joint if joint == "OR" else "COMMA", ",", condition[0].at)
+            self.conditions[-1] += [link, *condition]
+        else:
+            self.conditions.append(condition)
 
 
 def statements(where: str, latex: str) -> list[Statement]:
@@ -101,9 +114,9 @@ def _entries(tokens: Sequence[Token]) -> list[Statement]:
             may_have = not _bounds_position(last.tokens)
         if joint == "WHERE":
             made = made or [Statement([])]
-            made[-1].conditions.append(piece)
+            made[-1].require(piece, joint)
         elif may_have and kinds and kinds <= CONDITIONS and joint not in ("IMPLIES", "IFF"):
-            last.conditions.append(piece)
+            last.require(piece, joint)
         elif made and not (kinds and last.relations):
             last.why = last.why or _alone(piece if last.relations else last.tokens)
             last.tokens = [*last.tokens, Token("COMMA", ",", piece[0].at), *piece]
@@ -111,9 +124,8 @@ def _entries(tokens: Sequence[Token]) -> list[Statement]:
             made.append(_with_condition(piece))
             if joint == "IMPLIES" and made[:-1] and not last.relations - CONDITIONS:
                 made[-1].why = "it follows from a condition: write the condition in `require`"
-            if joint == "IFF" and made[:-1]:
-                why = "equivalent statements may both be false: write, as text, the one that holds"
-                made[-1].why = last.why = why
+            if joint in _UNDECIDED and made[:-1]:
+                made[-1].why = last.why = f"{_UNDECIDED[joint]}: write, as text, the one that holds"
     return made
 
 
@@ -199,8 +211,9 @@ def _with_condition(piece: Sequence[Token]) -> Statement:
 def _chain(entry: Statement) -> Iterator[Statement]:
     """Yield the statements of a chain of relations; equal sides are compared with the first."""
     cuts = [n for n, t in enumerate(entry.tokens) if not t.depth and t.type in RELATIONS]
+    conditions = [one for each in entry.conditions for one in _one_sided(each)]
     if entry.why or not cuts:
-        yield Statement(entry.tokens, entry.conditions, entry.why or _alone(entry.tokens))
+        yield Statement(entry.tokens, conditions, entry.why or _alone(entry.tokens))
         return
     between = [entry.tokens[n] for n in cuts]
     ends = zip([-1, *cuts], [*cuts, len(entry.tokens)], strict=True)
@@ -224,7 +237,18 @@ def _chain(entry: Statement) -> Iterator[Statement]:
         if relation.type not in ("EQUAL", "ROUGH", "ORDER"):
             why = f"{relation.text} does not form an equation: write it as a condition or limit"
             why += " of the other claims, or the equation with = or \\sim"
-        yield Statement([*left, relation, *right], entry.conditions, why, order, small)
+        yield Statement([*left, relation, *right], conditions, why, order, small)
+
+
+def _one_sided(condition: list[Token]) -> list[list[Token]]:
+    r"""Write s \to 0^+ as s \to 0, s > 0."""
+    kinds, text = [each.type for each in condition], " ".join(each.text for each in condition)
+    end = re.search(r" [_^] (?:\{ ([+-]) \}|([+-]))$", text)
+    if "TO" not in kinds or not end:
+        return [condition]
+    at, cut = kinds.index("TO"), len(condition) - len(end[0].split())
+    sign = Token("ORDER", ">" if "+" in end[0] else "<", condition[at].at)
+    return [condition[:cut], [*condition[:at], sign, *condition[at + 1 : cut]]]
 
 
 _REMAINDER = re.compile(

@@ -97,7 +97,12 @@ class _Typed(Transformer[Any, Any]):
         raise AttributeError(rule)
 
     def conditions(self, *parts: Any) -> str:
-        return " and ".join(each for each in parts if isinstance(each, str))
+        joints = {each.type for each in parts if isinstance(each, Token)}
+        texts = [each for each in parts if isinstance(each, str)]
+        if "OR" in joints and len(joints) > 1:
+            why = "some of these conditions are joined by `or`, and others by `and` or a comma"
+            raise Unclear(parts[1].at, why, "write the condition as text")
+        return (" or " if "OR" in joints else " and ").join(texts)
 
     def comparison(self, *parts: Any) -> str:
         relations = [each.type for each in parts[1::2]]

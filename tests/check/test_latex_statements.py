@@ -150,7 +150,7 @@ y = \sum_k a :: complete it as in \sum_{k=1}^{n} k
 y = \frac{d}{dx} p(x) :: at `d}{dx} p(x)`
 g = \begin{cases} 0 & x < b \\ 1 \end{cases} :: complete it as in \begin{cases} a & x < b
 g = \begin{cases} 0 & x \\ 1 & x < b \end{cases} :: this is not a condition
-g = \begin{cases} 0 & x < b \text{ or } x > c \end{cases} :: the words 'or' are not understood
+g = \begin{cases} 0 & x < b \text{ or } x > c, b > 0 \end{cases} :: joined by `or`, and others by
 g = \begin{cases} 0 & \text{inside} \\ 1 & x > b \end{cases} :: the words 'inside'
 y = \cos\frac{\theta}{2}(1 + b) :: mean cos(theta/2*(1 + b)) or cos(theta/2)*(1 + b), at `(1 + b)`
 y = \sin^2 n\theta :: it may mean sin(n*theta)**2 or sin(n)**2*theta, at `\theta`
@@ -183,13 +183,15 @@ def test_what_is_not_read_and_why(latex: str, why: str, tmp_path: Path) -> None:
 
 
 CONDITIONS = r"""
-p \sim K\sqrt{s} \quad (s \to 0) :: as = 's -> 0'
+p \sim K\sqrt{s} \quad (s \to 0^+) :: as = 's -> 0', require = 's > 0'
+p \sim K\sqrt{s}, \quad s \to a^{-} :: as = 's -> a', require = 's < a'
 {\displaystyle u\approx {\frac {Q}{a}}{\text{ as }}c\to a} :: as = 'c -> a'
 e = \frac{a}{b} + O(a^2) :: as = 'a -> 0', order = 2
 a = b \quad |x| < a :: require = 'abs(x) < a'
 |q| \le f p,\quad |x| < a :: require = 'abs(x) < a'
 q \le f p, \quad -a < x < c :: require = '-a < x < c'
 a = b \text{ for } x > 0 \text{ and } y < 0 :: require = 'x > 0 and y < 0'
+a = b \text{ for } x > 0 \text{ or } x < -1 :: require = 'x > 0 or x < -1'
 a = b \quad\text{for } x > 0, y < 2 :: require = 'x > 0 and y < 2'
 a = b, \quad \nu \neq 0 :: require = '(nu < 0 or nu > 0)'
 a = b \text{ for $x_{1} > 0$} :: require = 'x_1 > 0'
@@ -209,9 +211,6 @@ def test_conditions_limits_and_words_are_kept(latex: str, entries: str, tmp_path
 NOT_JUDGED = r"""
 p = \frac{Qs}{L}, \quad s \ll L :: its condition s \ll L could not be read
 a = b \quad \text{otherwise} :: its condition
-a = b \text{ for } x > 0 \text{ or } x < -1 :: its condition x > 0 \text{or} x
-p \sim K\sqrt{s} \quad (s \to 0^+) :: its condition s \to 0^+ could not be read
-p \sim K\sqrt{s}, \quad s \to a^{-} :: its condition s \to a^{-} could not be read
 a \sim b, x \to 0, c \to 1 :: it holds in several limits
 a = b + O(x^2), \quad c \to 0 :: it holds in several limits, c -> 0, x -> 0
 a = b + \ldots :: it is an approximation
@@ -234,9 +233,10 @@ def test_what_follows_from_a_condition_is_not_read(tmp_path: Path) -> None:
     first, second = claims(tmp_path, r"\[ x > 0 \Rightarrow a = b \]")
     assert first["understood"] == "x > 0"
     assert "it follows from a condition" in str(second["unchecked"])
-    both = claims(tmp_path, r"\[ a = b \iff c = d \]")
-    assert all("may both be false" in str(each["unchecked"]) for each in both)
-    assert not any("understood" in each for each in both)
+    for joint, why in ((r"\iff", "may both be false"), (r"\text{ or }", "only one may hold")):
+        both = claims(tmp_path, rf"\[ a = b {joint} c = d \]")
+        assert all(why in str(each["unchecked"]) for each in both)
+        assert not any("understood" in each for each in both)
 
 
 def test_an_unread_statement_keeps_its_limit_and_condition(tmp_path: Path) -> None:
