@@ -41,7 +41,7 @@ _CORNERS = 16
 _DECADES, _FEW_DECADES = 6, 2
 """The decades over which a variable without a range is spread; the same with integrals."""
 _LOOKED_AT, _MOST_ZEROS = 10, 24
-"""The largest number of expressions whose zeros are sought, and of zeros along one variable."""
+"""The largest number of expressions whose zeros are sought, and of zeros in one decade."""
 _WORKING = 40
 """Digits with which zeros are found."""
 _APART = 1e-9
@@ -273,11 +273,17 @@ class _Drawn:
 
 
 def zeros(expr: Expr, variable: Symbol, point: Point, low: mpf, high: mpf) -> list[mpf]:
-    """Return zeros of an expression along a variable to the working digits, in their order."""
-    with digits(mpmath.mp.dps), suppress(Undecided, NameError):  # no value, as DiracDelta
-        found = islice(zeros_between(expr, variable, point, low, high), _MOST_ZEROS)
-        return sorted(zero for zero in found if low <= zero <= high)
-    return []
+    """Return zeros of an expression along a variable to the working digits, in their order.
+
+    Each decade is searched by itself: far out, a growing exponential has no certain sign.
+    """
+    cuts, found = [low], set[mpf]()
+    while 0 < 10 * cuts[-1] < high:
+        cuts.append(10 * cuts[-1])
+    for one, other in pairwise([*cuts, high]):
+        with digits(mpmath.mp.dps), suppress(Undecided, NameError):  # no value, as DiracDelta
+            found.update(islice(zeros_between(expr, variable, point, one, other), _MOST_ZEROS))
+    return sorted(zero for zero in found if low <= zero <= high)
 
 
 def _at(span: Range, share: float) -> float:

@@ -300,6 +300,9 @@ CASES = [
     ),
     # zeros that lie close together, and cubes and products of which one corner is false
     (SIGNED, "abs((v**2 - 2)**2 - 10**(-6)) = (v**2 - 2)**2 - 10**(-6)", "", "fails"),
+    (FREE, "Max(0, 1/100 - abs(exp(n) - 4)) = 0", "", "fails"),
+    (FREE, "Heaviside(1 - cosh(n - 4/3) + 10**(-18)) = 0", "", "fails"),
+    (FREE, "Max(0, exp(n) - 4)*Max(0, 4.000001 - exp(n)) = 0", "", "fails"),
     (SIGNED, "abs(a + 1/a - 2.0001) = a + 1/a - 2.0001", "", "fails"),
     (SIGNED, "abs(a + 1/a - 1.9999) = a + 1/a - 1.9999", "", "holds or numerical"),
     (SIGNED, "abs(0.99998 - 0.99999*sin(t)**2) = 0.99998 - 0.99999*sin(t)**2", "", "fails"),
